@@ -1,0 +1,1 @@
+"""The footwork command, one file a subcommand."""

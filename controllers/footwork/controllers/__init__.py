@@ -1,0 +1,1 @@
+"""Decisions: from what a client asks for to the edge to take."""

@@ -1,0 +1,1 @@
+"""What both sides share: skeleton, clip, kinematics, contacts, metric, graph, table, bundle."""

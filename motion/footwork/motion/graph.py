@@ -1,0 +1,132 @@
+"""The motion graph: nodes are frames, edges are what may be played next."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.motion.arrays import frozen, require_finite, require_range, require_shape
+from footwork.motion.skeleton import Skeleton
+
+NO_BEHAVIOUR = -1
+
+_KINDS = {
+    "clip": np.int32,
+    "frame": np.int32,
+    "label": np.int16,
+    "behaviour": np.int16,
+    "contacts": np.bool_,
+    "root_position": np.float32,
+    "rotations": np.float32,
+    "root_velocity": np.float32,
+    "angular_velocity": np.float32,
+    "edge_start": np.int32,
+    "target": np.int32,
+    "cost": np.float32,
+    "smoothness": np.float32,
+    "displacement": np.float32,
+    "natural": np.bool_,
+}
+ARRAYS = tuple(_KINDS)
+
+
+@dataclass(frozen=True, eq=False)
+class MotionGraph:
+    """Flat, read-only arrays of N nodes, each a frame of motion, and E edges in CSR form, each one tick long.
+
+    A node's planar frame stands on the ground under joint 0 and looks where the body faces
+    (``kinematics.facing_yaw``). Poses and velocities of a node are given in it, so a character is a node and a
+    planar place ``(x, z, yaw)``. Velocities are backward differences over one tick: the frame before the node is
+    ``root_position - root_velocity / 30`` and ``exp(-angular_velocity / 30) rotations``.
+
+    Args:
+        skeleton: the common body.
+        clips: names of the source clips.
+        labels: the words that frames are labelled with.
+        behaviours: the behaviours that commands may ask for (papers.md 5).
+        clip: source clip of each node, an index into ``clips``.  # (N,)
+        frame: source frame of each node, at 30 Hz within its clip.  # (N,)
+        label: index into ``labels``.  # (N,)
+        behaviour: index into ``behaviours``, -1 where the label matches none.  # (N,)
+        contacts: which feet stand on the ground.  # (N, feet)
+        root_position: joint 0 in the planar frame, metres; x and z are 0.  # (N, 3)
+        rotations: local rotations xyzw, joint 0 in the planar frame.  # (N, J, 4)
+        root_velocity: of joint 0 in the planar frame, m/s.  # (N, 3)
+        angular_velocity: of each local rotation, in the parent's frame, rad/s.  # (N, J, 3)
+        edge_start: edges of node n are ``edge_start[n]:edge_start[n + 1]``.  # (N + 1,)
+        target: the node an edge leads to.  # (E,)
+        cost: dissimilarity s of the frames an edge joins, 0 for natural edges (papers.md 2).  # (E,)
+        smoothness: exp(-s / sigma), 1 for natural edges.  # (E,)
+        displacement: the target's planar place (x, z, yaw) in the source's planar frame, metres and radians.  # (E, 3)
+        natural: whether the edge follows the capture.  # (E,)
+
+    Raises:
+        InputError: for arrays that do not fit together, indices out of range or numbers that are not finite.
+    """
+
+    skeleton: Skeleton
+    clips: tuple[str, ...]
+    labels: tuple[str, ...]
+    behaviours: tuple[str, ...]
+    clip: NDArray[np.int32]
+    frame: NDArray[np.int32]
+    label: NDArray[np.int16]
+    behaviour: NDArray[np.int16]
+    contacts: NDArray[np.bool_]
+    root_position: NDArray[np.float32]
+    rotations: NDArray[np.float32]
+    root_velocity: NDArray[np.float32]
+    angular_velocity: NDArray[np.float32]
+    edge_start: NDArray[np.int32]
+    target: NDArray[np.int32]
+    cost: NDArray[np.float32]
+    smoothness: NDArray[np.float32]
+    displacement: NDArray[np.float32]
+    natural: NDArray[np.bool_]
+    where: str = "graph"
+
+    def __post_init__(self) -> None:
+        for name, kind in _KINDS.items():
+            object.__setattr__(self, name, frozen(getattr(self, name), kind))
+        for name in ("clips", "labels", "behaviours"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        self._check_shapes()
+        self._check_indices()
+
+    def _check_shapes(self) -> None:
+        nodes, edges, joints = len(self.clip), len(self.target), self.skeleton.joint_count
+        shapes = dict.fromkeys(("clip", "frame", "label", "behaviour"), (nodes,))
+        shapes |= dict.fromkeys(("target", "cost", "smoothness", "natural"), (edges,))
+        shapes |= {"root_position": (nodes, 3), "root_velocity": (nodes, 3), "displacement": (edges, 3)}
+        shapes |= {"rotations": (nodes, joints, 4), "angular_velocity": (nodes, joints, 3)}
+        shapes |= {"contacts": (nodes, len(self.skeleton.feet)), "edge_start": (nodes + 1,)}
+        for name, shape in shapes.items():
+            array = getattr(self, name)
+            require_shape(array, shape, name, self.where)
+            if array.dtype == np.float32:
+                require_finite(array, name, self.where)
+
+    def _check_indices(self) -> None:
+        nodes, edges = self.node_count, self.edge_count
+        require_range(self.clip, 0, len(self.clips), "clip", self.where)
+        require_range(self.label, 0, len(self.labels), "label", self.where)
+        require_range(self.behaviour, NO_BEHAVIOUR, len(self.behaviours), "behaviour", self.where)
+        require_range(self.target, 0, nodes, "target", self.where)
+        require_range(np.diff(self.edge_start), 0, edges + 1, "edges of a node", self.where)
+        require_range(self.edge_start[[0]], 0, 1, "edge_start[0]", self.where)
+        require_range(self.edge_start[[-1]], edges, edges + 1, "edge_start[-1]", self.where)
+
+    @property
+    def node_count(self) -> int:
+        """The number of nodes N."""
+        return len(self.clip)
+
+    @property
+    def edge_count(self) -> int:
+        """The number of edges E."""
+        return len(self.target)
+
+    @property
+    def source(self) -> NDArray[np.int32]:
+        """The node each edge leaves from.  # (E,)"""
+        return np.repeat(np.arange(self.node_count, dtype=np.int32), np.diff(self.edge_start))

@@ -1,0 +1,1 @@
+"""The tick: clock, world, sessions, server."""

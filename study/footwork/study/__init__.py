@@ -1,0 +1,1 @@
+"""Experiments over both sides: scoring, inspection, pictures."""

@@ -1,0 +1,1 @@
+"""Offline: files to clips to graph to value iteration to bundle."""
