@@ -106,8 +106,8 @@ def best_edges(
             value = edge_value(
                 heading[character],
                 asked,
-                headed[asked],
-                behaviour[there],
+                bool(headed[asked]),
+                int(behaviour[there]),
                 turn[edge],
                 smoothness[edge],
                 values[there, asked],
