@@ -1,0 +1,47 @@
+# `make demo` and `make test` do all set-up themselves: they need Python 3.11 or newer, make and a network.
+VENV := .venv
+BIN := $(VENV)/bin
+PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done)
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+WORKERS ?= 2
+
+.PHONY: help demo test check bench format clean
+help:  ## what can be made
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/'
+
+$(VENV)/made:
+	@test -n "$(PYTHON)" || { echo "footwork needs Python 3.11 or newer; none was found" >&2; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/installed: $(VENV)/made pyproject.toml
+	$(PIP) install --editable .
+	@touch $@
+
+$(VENV)/developing: $(VENV)/made pyproject.toml
+	$(PIP) install --editable '.[dev]'
+	@touch $@ $(VENV)/installed
+
+demo: $(VENV)/installed  ## build, serve and drive a character made from embedded motions
+	$(BIN)/footwork demo
+
+test: $(VENV)/developing  ## run the tests
+	$(BIN)/python -m pytest --numprocesses $(WORKERS) --dist worksteal --ignore tests/docs
+
+check: $(VENV)/developing  ## lint, types, import rules, every example of the documentation
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/pyright
+	$(BIN)/lint-imports
+	$(BIN)/python -m pytest tests/docs
+
+bench: $(VENV)/developing  ## run the benchmarks, each prints JSON
+	@for script in benchmarks/*.py; do echo "== $$script" >&2; $(BIN)/python $$script || exit 1; done
+
+format: $(VENV)/developing  ## put the code into its usual form
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+clean:  ## remove the virtual environment and what was built
+	rm -rf $(VENV) build dist

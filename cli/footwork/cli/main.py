@@ -1,0 +1,43 @@
+"""The ``footwork`` command: one file a subcommand, errors as one line, an exit status that means something."""
+
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+
+from cyclopts import App
+from cyclopts.exceptions import CycloptsError
+
+from footwork.errors import FootworkError
+
+BAD_INPUT = 2
+INTERRUPTED = 130
+
+app = App(name="footwork", version=version("footwork"), help="Motion capture to a character that responds.")
+app.command("footwork.cli.demo:demo")
+app.command("footwork.cli.build:build")
+app.command("footwork.cli.inspect:inspect")
+app.command("footwork.cli.serve:serve")
+app.command("footwork.cli.score:score")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one subcommand and return its exit status: 0 done, 2 bad input, 130 interrupted."""
+    try:
+        app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+    except (FootworkError, CycloptsError) as error:
+        return _complain(str(error))
+    except OSError as error:
+        return _complain(f"{error.filename or 'file'}: {error.strerror or error}")
+    except KeyboardInterrupt:
+        print("footwork: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    return 0
+
+
+def _complain(message: str) -> int:
+    print("footwork:", " ".join(message.split()), file=sys.stderr)
+    return BAD_INPUT
+
+
+if __name__ == "__main__":
+    sys.exit(main())
