@@ -43,13 +43,13 @@ def test_interpolation_is_periodic_and_exact_at_the_bins():
 
 
 @pytest.mark.parametrize(
-    "changes",
+    ("name", "value"),
     [
-        {"behaviours": ()},
-        {"heading_bins": 3},
-        {"discount": 1.0},
-        {"heading_sigma": 0.0},
-        {"smoothness_sigma": math.nan},
+        ("behaviours", ()),
+        ("heading_bins", 3),
+        ("discount", 1.0),
+        ("heading_sigma", 0.0),
+        ("smoothness_sigma", math.nan),
     ],
 )
 def test_a_senseless_task_is_refused(name, value):
