@@ -5,7 +5,12 @@ At rest (identity rotations) it stands in a T pose: +y up, +z forward, so +x is 
 
 import numpy as np
 
+from footwork.motion.masses import segment_masses
 from footwork.motion.skeleton import Skeleton
+
+# The ball of a standing foot, a joint inside it, lies this far above the floor y = 0 (convention).
+BALL_HEIGHT = 0.02  # metres
+DEFAULT_MASS = 75.0  # kilograms
 
 # name, parent, offset from the parent in metres of a person 1.76 m tall, end site
 _TRUNK = [
@@ -40,12 +45,19 @@ FEET = np.array([[NAMES.index(f"{side}_foot"), NAMES.index(f"{side}_toes")] for 
 
 
 def default_body() -> Skeleton:
-    """The common body with the lengths of a person 1.76 m tall."""
+    """The common body with the lengths of a person 1.76 m tall and 75 kg."""
     return Skeleton(
         names=NAMES,
         parents=PARENTS,
         offsets=np.array([joint[2] for joint in _JOINTS]),
         ends=np.array([joint[3] for joint in _JOINTS]),
+        masses=segment_masses(NAMES, DEFAULT_MASS),
         feet=FEET,
         where="common body",
     )
+
+
+def rest_height(body: Skeleton) -> float:
+    """Height in metres of the hips above the floor while the common body stands in its T pose."""
+    drop = sum(body.offsets[body.index(f"left_{part}"), 1] for part in ("thigh", "shank", "foot", "toes"))
+    return BALL_HEIGHT - float(drop)
