@@ -1,0 +1,64 @@
+"""``footwork build``: motion capture to bundle."""
+
+import time
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from footwork.cli.motions import load_motions
+from footwork.cli.output import emit, progress
+from footwork.errors import InputError
+
+GRAPHS = ("standard",)
+
+
+def build(
+    motions: str,
+    /,
+    *,
+    out: Path,
+    graph: str = "standard",
+    threshold: float = 1.0,
+    labels: Path | None = None,
+    ranges: Path | None = None,
+    table: tuple[Path, ...] = (),
+    discount: float = 0.98,
+    json: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Make a bundle from motion capture: motion graph, policy table, provenance.
+
+    Example: footwork build captures --labels labels.csv --threshold 1.0 --out walker.footwork
+
+    Args:
+        motions: A folder of BVH or ASF/AMC files, or embedded:locomotion or embedded:fighting.
+        out: The bundle to write; an older one there is replaced only once the new one is whole.
+        graph: The kind of motion graph: standard.
+        threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm).
+        labels: CSV file with set, file, start_frame, end_frame, label.
+        ranges: CSV file with set, file, start_frame, end_frame: the parts to use; all where not given.
+        table: Name table of a skeleton of your own (TOML); may be given several times.
+        discount: The worth of the next tick's reward against this one's.
+        json: Print the report as one JSON object.
+    """
+    from footwork.motion.task import SteeringTask
+    from footwork.training.build import build_bundle
+
+    _check_options(graph, out)
+    started = time.perf_counter()
+    task = SteeringTask(discount=discount)
+    with progress() as report_progress:
+        report_progress("reading motions", 0.0)
+        dataset = load_motions(motions, labels, ranges, table)
+        read = time.perf_counter() - started
+        bundle, report = build_bundle(dataset, threshold=threshold, task=task, progress=report_progress)
+        digest = write_bundle(out, bundle)
+    seconds = report["seconds"] | {"read": read, "total": time.perf_counter() - started}
+    emit(report | {"seconds": seconds, "digest": digest}, json, f"{out}")
+
+
+def _check_options(graph: str, out: Path) -> None:
+    if graph not in GRAPHS:
+        raise InputError(f"{graph!r} is not a graph that can be built, there is {', '.join(GRAPHS)}", "--graph")
+    if not out.parent.is_dir():
+        raise InputError(f"no folder {out.parent}, expected one that exists", "--out")

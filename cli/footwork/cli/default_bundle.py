@@ -1,0 +1,48 @@
+"""The bundle of the demo: built once from the embedded motions (or a folder), then kept in the user's cache."""
+
+import hashlib
+import os
+from importlib.metadata import version
+from pathlib import Path
+
+from footwork.cli.output import Report, log
+from footwork.errors import InputError
+from footwork.motion.bundle import Bundle, read_bundle, write_bundle
+from footwork.training.dataset import Dataset
+
+THRESHOLD = 1.0
+
+
+def cache_folder() -> Path:
+    """Where bundles are kept between runs: ``footwork`` in the user's cache folder."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "footwork"
+
+
+def build_or_reuse(dataset: Dataset, cache: Path, progress: Report) -> tuple[Path, Bundle]:
+    """The bundle of ``dataset``, from ``cache`` where an intact one lies there."""
+    path = cache / f"{_fingerprint(dataset)}.footwork"
+    if path.exists():
+        try:
+            return path, read_bundle(path)
+        except InputError as error:
+            log(f"building anew: {error}")
+    return path, _build(dataset, path, progress)
+
+
+def _build(dataset: Dataset, path: Path, progress: Report) -> Bundle:
+    from footwork.training.build import build_bundle
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    bundle, _ = build_bundle(dataset, threshold=THRESHOLD, progress=progress)
+    write_bundle(path, bundle)
+    return bundle
+
+
+def _fingerprint(dataset: Dataset) -> str:
+    """A name for what the bundle is made of: the motion, the version and the threshold."""
+    digest = hashlib.sha256(f"{version('footwork')} {THRESHOLD}".encode())
+    for clip in dataset.clips:
+        for part in (clip.skeleton.offsets, clip.root_position, clip.rotations, clip.contacts):
+            digest.update(part.tobytes())
+        digest.update("\n".join((clip.name, *clip.labels)).encode())
+    return digest.hexdigest()[:24]

@@ -1,0 +1,42 @@
+"""``footwork serve``: the server."""
+
+import signal
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from footwork.cli.output import emit, log
+
+
+def serve(
+    bundle: Path,
+    /,
+    *,
+    bind: str = "tcp://127.0.0.1:5555",
+    rate: int = 60,
+    seconds: float | None = None,
+    inertialise: bool = True,
+    json: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Serve a bundle's character to game clients over ZeroMQ, until interrupted.
+
+    Example: footwork serve walker.footwork --bind tcp://127.0.0.1:5555 --rate 60
+
+    Args:
+        bundle: The bundle to serve.
+        bind: Where to listen; port 0 takes any free port. Only this machine can connect unless told otherwise.
+        rate: Frames sent a second: 30, 60 or 120.
+        seconds: Stop by itself after this long.
+        inertialise: Smooth transitions; --no-inertialise shows the bare jumps.
+        json: Print the summary as one JSON object when done.
+    """
+    from footwork.motion.bundle import read_bundle
+    from footwork.runtime.server import Server
+
+    server = Server(read_bundle(bundle), bind=bind, rate=rate, inertialise=inertialise)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: server.stop())
+    log(f"listening on {server.address}")
+    server.run(seconds)
+    emit(server.summary(), json, f"{server.address}")
