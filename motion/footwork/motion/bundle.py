@@ -1,0 +1,190 @@
+"""The bundle: what training makes and the runtime loads, in one file that carries its own digest."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.errors import InputError
+from footwork.motion import tensor_file
+from footwork.motion.graph import ARRAYS, MotionGraph
+from footwork.motion.skeleton import Skeleton
+from footwork.motion.table import PolicyTable
+from footwork.motion.task import SteeringTask
+
+VERSION = 1
+_BODY_ARRAYS = ("parents", "offsets", "ends", "masses", "feet")
+
+
+@dataclass(frozen=True, eq=False)
+class Bundle:
+    """A motion graph, the policies over it, and where they came from.
+
+    Args:
+        graph: the motion graph, strongly connected, so that there is always a next frame.
+        tables: policies by name, such as "steering".
+        provenance: JSON-able: source files with their digests, options, versions, counts before and after.
+        attribution: what the licences of the sources ask to have shown, a line each.
+        digest: SHA-256 of the file, empty before it is sealed.
+
+    Raises:
+        InputError: for a graph with no nodes or with a node that leads nowhere, and for a table of other nodes or
+            behaviours than the graph's.
+    """
+
+    graph: MotionGraph
+    tables: Mapping[str, PolicyTable]
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+    attribution: tuple[str, ...] = ()
+    digest: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "attribution", tuple(self.attribution))
+        self._check_graph()
+        for table in self.tables.values():
+            self._check_table(table)
+
+    def _check_graph(self) -> None:
+        graph = self.graph
+        if graph.node_count == 0:
+            raise InputError("no nodes, expected at least one", graph.where)
+        ends = np.flatnonzero(np.diff(graph.edge_start) == 0)
+        if ends.size:
+            raise InputError(f"node {ends[0]} leads nowhere, expected at least one edge from every node", graph.where)
+
+    def _check_table(self, table: PolicyTable) -> None:
+        graph = self.graph
+        if len(table.values) != graph.node_count:
+            problem = f"{len(table.values)} rows, expected one for each of {graph.node_count} nodes"
+            raise InputError(problem, table.where)
+        if table.task.behaviours != graph.behaviours:
+            problem = f"behaviours {', '.join(table.task.behaviours)}, the graph has {', '.join(graph.behaviours)}"
+            raise InputError(problem, table.where)
+
+    def table(self, name: str) -> PolicyTable:
+        """The policy called ``name``.
+
+        Raises:
+            InputError: for a name that is not there, listing those that are.
+        """
+        if name not in self.tables:
+            raise InputError(f"no table {name!r}, it has {', '.join(self.tables) or 'none'}", "bundle")
+        return self.tables[name]
+
+
+class _Table(msgspec.Struct):
+    task: SteeringTask
+    residual: float
+    sweeps: int
+    converged: bool
+
+
+class _Version(msgspec.Struct):
+    version: int
+
+
+class _About(msgspec.Struct):
+    version: int
+    joints: list[str]
+    clips: list[str]
+    labels: list[str]
+    behaviours: list[str]
+    tables: dict[str, _Table]
+    provenance: dict[str, Any]
+    attribution: list[str]
+
+
+def write_bundle(path: str | Path, bundle: Bundle) -> str:
+    """Write a bundle, whole or not at all, and return its digest.
+
+    Raises:
+        InputError: for a table that is not converged, or a place that cannot be written to.
+    """
+    data, digest = encode_bundle(bundle)
+    tensor_file.publish(Path(path), data)
+    return digest
+
+
+def sealed(bundle: Bundle) -> Bundle:
+    """The bundle with the digest that its file has or will have."""
+    return replace(bundle, digest=encode_bundle(bundle)[1])
+
+
+def read_bundle(path: str | Path) -> Bundle:
+    """Read a bundle, its arrays as read-only views of one copy of the file.
+
+    Raises:
+        InputError: for a file that is missing, cut short, changed, of a newer version, or whose parts do not fit
+            together; and for a table that is not converged.
+    """
+    path = Path(path)
+    return decode_bundle(tensor_file.read_bytes(path), str(path))
+
+
+def decode_bundle(data: bytes, where: str) -> Bundle:
+    """A bundle from the bytes of its file; errors as of ``read_bundle``."""
+    arrays, text, digest = tensor_file.unseal(data, where)
+    version = tensor_file.decode_about(text, _Version, where).version
+    if version != VERSION:
+        age = "newer" if version > VERSION else "older"
+        raise InputError(f"a bundle of the {age} version {version}, expected version {VERSION}", where)
+    about = tensor_file.decode_about(text, _About, where)
+    tables = {name: _table(table, arrays, name, where) for name, table in about.tables.items()}
+    graph = _graph(about, arrays, where)
+    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest)
+
+
+def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
+    """The bytes of a bundle's file and its digest; errors as of ``write_bundle``."""
+    graph = bundle.graph
+    arrays = {f"graph.{name}": getattr(graph, name) for name in ARRAYS}
+    arrays |= {f"skeleton.{name}": getattr(graph.skeleton, name) for name in _BODY_ARRAYS}
+    arrays |= {f"table.{name}": table.require_converged().values for name, table in bundle.tables.items()}
+    about = {
+        "version": VERSION,
+        "joints": graph.skeleton.names,
+        "clips": graph.clips,
+        "labels": graph.labels,
+        "behaviours": graph.behaviours,
+        "tables": {name: _about_table(table) for name, table in bundle.tables.items()},
+        "provenance": bundle.provenance,
+        "attribution": bundle.attribution,
+    }
+    return tensor_file.seal(arrays, about)
+
+
+def _about_table(table: PolicyTable) -> _Table:
+    return _Table(table.task, table.residual, table.sweeps, table.converged)
+
+
+def _take(arrays: Mapping[str, NDArray], name: str, where: str) -> NDArray:
+    if name not in arrays:
+        raise InputError(f"no array {name!r}, it has {', '.join(sorted(arrays)) or 'none'}", where)
+    return arrays[name]
+
+
+def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PolicyTable:
+    values = _take(arrays, f"table.{name}", where)
+    if not math.isfinite(about.residual):
+        raise InputError(f"table {name!r} has a residual of {about.residual}, expected a finite number", where)
+    return PolicyTable(
+        about.task, values, about.residual, about.sweeps, about.converged, where=f"{where}: table {name!r}"
+    ).require_converged()
+
+
+def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGraph:
+    body = {name: _take(arrays, f"skeleton.{name}", where) for name in _BODY_ARRAYS}
+    graph = {name: _take(arrays, f"graph.{name}", where) for name in ARRAYS}
+    return MotionGraph(
+        skeleton=Skeleton(names=tuple(about.joints), where=f"{where}: skeleton", **body),
+        clips=tuple(about.clips),
+        labels=tuple(about.labels),
+        behaviours=tuple(about.behaviours),
+        where=f"{where}: graph",
+        **graph,
+    )

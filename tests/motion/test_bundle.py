@@ -1,0 +1,194 @@
+import hashlib
+import json
+import re
+
+import msgspec
+import numpy as np
+import pytest
+from safetensors.numpy import load_file
+
+from footwork.errors import InputError
+from footwork.motion import tensor_file
+from footwork.motion.bundle import VERSION, Bundle, decode_bundle, encode_bundle, read_bundle, sealed, write_bundle
+from footwork.motion.graph import ARRAYS
+from footwork.motion.table import PolicyTable
+from footwork.motion.task import SteeringTask
+from motion_samples import ring_graph
+
+TASK = SteeringTask(behaviours=("stop", "walk"))
+
+
+def sample_bundle(nodes: int = 5, converged: bool = True) -> Bundle:
+    values = np.random.default_rng(0).random((nodes, 2, TASK.heading_bins), np.float32)
+    table = PolicyTable(TASK, values, 1e-4, 400, converged)
+    provenance = {"files": [{"name": "a.bvh", "sha256": "0" * 64}], "options": {"threshold": 0.1 + 0.2}}
+    return Bundle(ring_graph(nodes), {"steering": table}, provenance, ("Motion by someone, CC BY 4.0",))
+
+
+@pytest.fixture(scope="module")
+def sample_bytes() -> bytes:
+    return tensor_bytes(sample_bundle())
+
+
+def tensor_bytes(bundle: Bundle) -> bytes:
+    return encode_bundle(bundle)[0]
+
+
+def forged(change) -> bytes:
+    """The sample bundle with its JSON changed and sealed anew, as another program could write it."""
+    bundle = sample_bundle()
+    arrays, text, _ = tensor_file.unseal(tensor_bytes(bundle), "sample")
+    about = msgspec.json.decode(text)
+    change(about, arrays)
+    return tensor_file.seal(arrays, about)[0]
+
+
+def test_a_bundle_reads_as_it_was_written(tmp_path):
+    bundle = sample_bundle()
+    digest = write_bundle(tmp_path / "b.footwork", bundle)
+    read = read_bundle(tmp_path / "b.footwork")
+    assert read.digest == digest == sealed(bundle).digest
+    assert read.provenance == bundle.provenance
+    assert read.attribution == bundle.attribution
+    assert read.table("steering").task == TASK
+    np.testing.assert_array_equal(read.table("steering").values, bundle.table("steering").values)
+    for name in ARRAYS:
+        np.testing.assert_array_equal(getattr(read.graph, name), getattr(bundle.graph, name))
+    for name in ("clips", "labels", "behaviours"):
+        assert getattr(read.graph, name) == getattr(bundle.graph, name)
+    assert read.graph.skeleton.names == bundle.graph.skeleton.names
+    np.testing.assert_array_equal(read.graph.skeleton.offsets, bundle.graph.skeleton.offsets)
+
+
+def test_the_same_bundle_gives_the_same_bytes(sample_bytes):
+    assert all(tensor_bytes(sample_bundle()) == sample_bytes for _ in range(3))
+
+
+def test_arrays_are_read_only_views_of_the_file(sample_bytes):
+    graph = decode_bundle(sample_bytes, "sample").graph
+    for name in ARRAYS:
+        array = getattr(graph, name)
+        assert not array.flags.writeable
+        assert not array.flags.owndata
+
+
+def test_other_programs_read_the_arrays(tmp_path):
+    write_bundle(tmp_path / "b.footwork", sample_bundle())
+    arrays = load_file(tmp_path / "b.footwork")
+    assert arrays["table.steering"].shape == (5, 2, 36)
+
+
+def test_every_changed_byte_is_noticed(sample_bytes):
+    start = 8 + int.from_bytes(sample_bytes[:8], "little")
+    places = np.unique(np.r_[np.arange(0, start, 3), np.linspace(start, len(sample_bytes) - 1, 400).astype(int)])
+    for place in places:
+        for mask in (1, 0x20, 0x80):
+            changed = bytearray(sample_bytes)
+            changed[place] ^= mask
+            with pytest.raises(InputError, match=r"^sample.*: "):
+                decode_bundle(bytes(changed), "sample")
+
+
+def test_every_truncation_is_noticed(sample_bytes):
+    lengths = np.unique(np.r_[np.arange(0, 300), np.linspace(300, len(sample_bytes) - 1, 400).astype(int)])
+    for length in lengths:
+        with pytest.raises(InputError, match="sample"):
+            decode_bundle(sample_bytes[:length], "sample")
+    with pytest.raises(InputError, match="damaged"):
+        decode_bundle(sample_bytes + b"\0", "sample")
+
+
+@pytest.mark.parametrize(
+    "garbage", [b"", b"\xff" * 40, b"HIERARCHY ROOT hips", b"\x02\0\0\0\0\0\0\0{}", b"\x02" + b"\0" * 7 + b"[]"]
+)
+def test_other_files_are_refused(garbage):
+    with pytest.raises(InputError):
+        decode_bundle(garbage, "sample")
+
+
+def test_a_newer_version_says_so():
+    def newer(about, arrays):
+        about["version"] = VERSION + 1
+        about["joints"] = "no longer a list"
+
+    with pytest.raises(InputError, match=f"newer version {VERSION + 1}, expected version {VERSION}"):
+        decode_bundle(forged(newer), "sample")
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda about, arrays: arrays.pop("graph.target"), "no array 'graph.target'"),
+        (lambda about, arrays: arrays.update({"graph.target": np.full(5, 99, np.int32)}), "target holds 99"),
+        (lambda about, arrays: arrays.update({"graph.cost": np.full(5, np.nan, np.float32)}), "cost.*nan"),
+        (lambda about, arrays: arrays.update({"graph.cost": np.zeros(4, np.float32)}), "cost has shape"),
+        (lambda about, arrays: arrays.update({"table.steering": np.zeros((4, 2, 36), np.float32)}), "4 rows"),
+        (lambda about, arrays: about["tables"]["steering"].update(converged=False), "not converged"),
+        (lambda about, arrays: about["tables"]["steering"]["task"].update(discount=1.0), "discount is 1"),
+        (lambda about, arrays: about["tables"]["steering"]["task"].update(heading_bins="36"), "heading_bins"),
+        (lambda about, arrays: about["tables"]["steering"]["task"].update(behaviours=["walk", "stop"]), "behaviours"),
+        (lambda about, arrays: about["joints"].__setitem__(1, "hips"), "used twice"),
+        (lambda about, arrays: about.pop("clips"), "clips"),
+        (lambda about, arrays: about["labels"].clear(), "label holds 0 to 0"),
+    ],
+)
+def test_parts_that_do_not_fit_are_refused(change, says):
+    with pytest.raises(InputError, match=says):
+        decode_bundle(forged(change), "sample")
+
+
+def test_a_node_that_leads_nowhere_is_refused():
+    def cut(about, arrays):
+        starts = np.arange(6, dtype=np.int32)
+        starts[3:] = [2, 4, 5]
+        arrays["graph.edge_start"] = starts
+
+    with pytest.raises(InputError, match="node 2 leads nowhere"):
+        decode_bundle(forged(cut), "sample")
+
+
+def test_an_offset_past_the_end_is_refused(sample_bytes):
+    length = int.from_bytes(sample_bytes[:8], "little")
+    header = json.loads(sample_bytes[8 : 8 + length])
+    header["graph.cost"]["data_offsets"][1] += 10**9
+    digest = json.loads(header["__metadata__"]["footwork"])["digest"]
+    text = json.dumps(header).encode()
+    data = len(text).to_bytes(8, "little") + text + sample_bytes[8 + length :]
+    blank = data.replace(digest.encode(), b"0" * 64, 1)
+    resealed = data.replace(digest.encode(), hashlib.sha256(blank).hexdigest().encode(), 1)
+    with pytest.raises(InputError, match="does not fit"):
+        decode_bundle(resealed, "sample")
+
+
+def test_an_unconverged_table_is_never_written(tmp_path):
+    with pytest.raises(InputError, match="not converged"):
+        write_bundle(tmp_path / "b.footwork", sample_bundle(converged=False))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_provenance_that_is_no_json_is_never_written(tmp_path):
+    bundle = sample_bundle()
+    bad = Bundle(bundle.graph, bundle.tables, {"object": object()})
+    with pytest.raises(InputError, match="JSON"):
+        write_bundle(tmp_path / "b.footwork", bad)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_places_that_cannot_be_read_or_written(tmp_path):
+    with pytest.raises(InputError, match=re.escape(str(tmp_path / "none"))):
+        read_bundle(tmp_path / "none")
+    with pytest.raises(InputError, match="cannot be read"):
+        read_bundle(tmp_path)
+    with pytest.raises(InputError, match="cannot be written"):
+        write_bundle(tmp_path / "no" / "b.footwork", sample_bundle())
+
+
+def test_writing_over_a_bundle_leaves_the_old_or_the_new(tmp_path):
+    path = tmp_path / "b.footwork"
+    write_bundle(path, sample_bundle(5))
+    old = read_bundle(path)
+    write_bundle(path, sample_bundle(7))
+    assert old.graph.node_count == 5
+    assert old.graph.target[4] == 0
+    assert read_bundle(path).graph.node_count == 7
+    assert [entry.name for entry in tmp_path.iterdir()] == ["b.footwork"]
