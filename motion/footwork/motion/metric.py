@@ -1,0 +1,134 @@
+"""How unlike two frames are: the distance of their windows' point clouds after the best alignment on the ground."""
+
+from collections.abc import Iterable, Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from footwork.errors import InputError
+from footwork.motion.alignment import Alignment, align
+from footwork.motion.all_pairs import all_pairs
+from footwork.motion.arrays import frozen, require_finite, require_shape
+from footwork.motion.clip import Clip
+from footwork.motion.kinematics import clip_places
+from footwork.motion.window import LENGTH, window_frames, window_weights
+
+UNIT = 0.05644  # metres: s = 1 is a root mean square distance of this much (papers.md 2)
+_PAIRS_AT_ONCE = 4096
+
+
+class Metric(Protocol):
+    """What transitions need of a metric over N frames: every pair at once, and the alignment of chosen pairs."""
+
+    @property
+    def frame_count(self) -> int:
+        """The number of frames N."""
+        ...
+
+    def all_pairs(self) -> NDArray[np.float64]:
+        """s of every pair of frames.  # (N, N)"""
+        ...
+
+    def align(self, i: ArrayLike, j: ArrayLike) -> Alignment:
+        """How frames ``j`` go onto frames ``i``.  # (M,)"""
+        ...
+
+
+class PointCloudMetric:
+    """s = sum w |d|^2 / UNIT^2 over the joints of two windows, with fixed weights that sum to 1 (papers.md 1 and 2).
+
+    Frames are numbered through the clips laid end to end; a window past a clip's end repeats the end frame.
+
+    Args:
+        places: world places of the points of each clip's frames, metres.  # (F, P, 3) each
+        joint_weights: of the points of a frame, scaled to sum 1; equal where not given.  # (P,)
+
+    Raises:
+        InputError: for no clips, a clip with no frames, clips of different points, or weights that cannot be scaled.
+    """
+
+    def __init__(self, places: Sequence[NDArray], joint_weights: ArrayLike | None = None) -> None:
+        if not places:
+            raise InputError("no clips, expected at least one", "metric")
+        points = places[0].shape[1]
+        for number, clip in enumerate(places):
+            require_shape(clip, (None, points, 3), f"places of clip {number}", "metric")
+            require_finite(clip, f"places of clip {number}", "metric")
+            if not len(clip):
+                raise InputError(f"clip {number} is empty, expected at least one frame", "metric")
+        self.joint_weights = _scaled(np.ones(points) if joint_weights is None else joint_weights, points)
+        self.lengths = tuple(len(clip) for clip in places)
+        self._places = frozen(np.concatenate(places), np.float64)
+        self._windows = window_frames(self.lengths)
+        self._weights = window_weights()
+
+    @classmethod
+    def of_clips(cls, clips: Iterable[Clip]) -> "PointCloudMetric":
+        """The uniform metric over the joints of clips."""
+        return cls([clip_places(clip)[0] for clip in clips])
+
+    @property
+    def frame_count(self) -> int:
+        """The number of frames N."""
+        return len(self._places)
+
+    def all_pairs(self) -> NDArray[np.float64]:
+        """s of every pair of frames, exact and symmetric.  # (N, N)
+
+        Windowed sums are sums along the diagonals of per-frame products, which are three matrix products; only
+        one half of the matrix is computed, in stripes that stay in the cache.
+        """
+        centred = self._places - self._centroids()
+        return all_pairs(centred, self.lengths, self._windows, self._weights, self.joint_weights, UNIT**-2)
+
+    def pair_costs(self, i: ArrayLike, j: ArrayLike) -> NDArray[np.float64]:
+        """s of chosen pairs of frames.  # (M,)"""
+        return self.align(i, j).square / UNIT**2
+
+    def align(self, i: ArrayLike, j: ArrayLike) -> Alignment:
+        """How the windows of frames ``j`` go onto those of frames ``i``, each (M,)."""
+        first, second = np.broadcast_arrays(*(np.atleast_1d(np.asarray(frames, dtype=np.intp)) for frames in (i, j)))
+        spans = [slice(at, at + _PAIRS_AT_ONCE) for at in range(0, max(len(first), 1), _PAIRS_AT_ONCE)]
+        parts = [
+            align_windows(self._window(first[span]), self._window(second[span]), self.joint_weights) for span in spans
+        ]
+        return Alignment(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+    def _window(self, frames: NDArray) -> NDArray[np.float64]:
+        return self._places[self._windows[frames]]
+
+    def _centroids(self) -> NDArray[np.float64]:
+        """Each clip's own centre on the ground and one height for all, which no cost depends on.  # (N, 1, 3)"""
+        starts = np.concatenate([[0], np.cumsum(self.lengths)[:-1]])
+        means = np.add.reduceat(self._places.mean(axis=1), starts) / np.array(self.lengths)[:, None]
+        means[:, 1] = self._places[..., 1].mean()
+        return np.repeat(means, self.lengths, axis=0)[:, None, :]
+
+
+def align_windows(first: ArrayLike, second: ArrayLike, joint_weights: ArrayLike | None = None) -> Alignment:
+    """How windows of points, given as arrays (..., LENGTH, P, 3), go onto each other under the fixed weights.
+
+    ``square / UNIT**2`` of the result is s. Joint weights (P,) are scaled to sum 1, equal where not given.
+
+    Raises:
+        InputError: for windows of another length or another number of points.
+    """
+    first, second = (np.asarray(values, dtype=np.float64) for values in (first, second))
+    points = first.shape[-2]
+    for name, values in (("first", first), ("second", second)):
+        require_shape(values, (*[None] * (values.ndim - 3), LENGTH, points, 3), f"{name} window", "metric")
+    scaled = _scaled(np.ones(points) if joint_weights is None else joint_weights, points)
+    weights = (window_weights()[:, None] * scaled).ravel()
+    flat = (-1, LENGTH * points, 3)
+    shape = np.broadcast_shapes(first.shape[:-3], second.shape[:-3])
+    found = align(first.reshape(flat), second.reshape(flat), weights)
+    return Alignment(*(part.reshape(shape) for part in found))
+
+
+def _scaled(weights: ArrayLike, points: int) -> NDArray[np.float64]:
+    weights = np.asarray(weights, dtype=np.float64)
+    require_shape(weights, (points,), "joint weights", "metric")
+    if not (np.isfinite(weights).all() and (weights >= 0).all() and weights.sum() > 0):
+        raise InputError("joint weights must be zero or more, not all zero", "metric")
+    return frozen(weights / weights.sum(), np.float64)
