@@ -1,0 +1,172 @@
+"""A small blocking client: connect, spawn, command, look at the poses."""
+
+import math
+import time
+from collections import deque
+from collections.abc import Iterator
+from typing import Self
+
+import zmq
+
+from footwork.protocol import messages as m
+from footwork.protocol.codec import SERVER_MESSAGE_BYTES
+from footwork.protocol.connection import Connection, Role, State
+from footwork.protocol.errors import LocalError, RefusedError
+
+DEFAULT_ADDRESS = "tcp://127.0.0.1:5555"
+_KEPT = 4096
+
+
+class Client:
+    """A session with a server; also a context manager that says bye.
+
+    Args:
+        address: of the server, such as ``tcp://127.0.0.1:5555``.
+        name: for the server's log.
+        timeout: how long to wait for the welcome, seconds.
+
+    Raises:
+        LocalError: for an address that is none.
+        RefusedError: for a server that refuses the session, or none that answers in time (code ``timeout``).
+    """
+
+    def __init__(self, address: str = DEFAULT_ADDRESS, *, name: str = "", timeout: float = 5.0) -> None:
+        self._connection = Connection(Role.CLIENT)
+        self._waiting: deque[m.FromServer] = deque(maxlen=_KEPT)
+        self._sequence = 0
+        self._nonce = 0
+        self._ping_every = float("inf")
+        self._socket = zmq.Context.instance().socket(zmq.DEALER)
+        self._socket.set(zmq.LINGER, 200)
+        self._socket.set(zmq.MAXMSGSIZE, SERVER_MESSAGE_BYTES)
+        try:
+            self._connect(address)
+            self.welcome = self._greet(name, timeout)
+        except BaseException:
+            self._socket.close(linger=0)
+            raise
+        self._ping_every = self.welcome.idle_seconds / 3.0 or float("inf")
+
+    def _connect(self, address: str) -> None:
+        try:
+            self._socket.connect(address)
+        except zmq.ZMQError as error:
+            raise LocalError(f"address {address!r}: {error.strerror}, expected such as {DEFAULT_ADDRESS}") from None
+
+    def _greet(self, name: str, timeout: float) -> m.Welcome:
+        self._send(m.Hello(version=m.PROTOCOL_VERSION, client=name))
+        answer = self._require(timeout, "no answer to hello")
+        if not isinstance(answer, m.Welcome):
+            raise RefusedError("state", f"{type(answer).__name__.lower()} in answer to hello")
+        return answer
+
+    def spawn(self, character: int = 0, *, x: float = 0.0, z: float = 0.0, yaw: float = 0.0, behaviour="") -> int:
+        """Put a character into the world; returns the message's sequence, as all of these do."""
+        sequence = self._next()
+        self._send(m.Spawn(sequence=sequence, character=character, x=x, z=z, yaw=yaw, behaviour=behaviour))
+        return sequence
+
+    def command(self, character: int, heading: float, behaviour: str, *, tick: int = 0) -> int:
+        """Ask for a direction of travel, radians, and a behaviour."""
+        sequence = self._next()
+        asked = m.Command(sequence=sequence, character=character, heading=heading, behaviour=behaviour, tick=tick)
+        self._send(asked)
+        return sequence
+
+    def keys(self, character: int, keys: m.Keys, *, tick: int = 0) -> int:
+        """Ask by the view yaw and the keys that a player holds."""
+        sequence = self._next()
+        self._send(m.Command(sequence=sequence, character=character, keys=keys, tick=tick))
+        return sequence
+
+    def correct(self, character: int, x: float, z: float, yaw: float) -> int:
+        """Move a character's root, metres and radians; its motion goes on from there."""
+        sequence = self._next()
+        self._send(m.Correct(sequence=sequence, character=character, x=x, z=z, yaw=yaw))
+        return sequence
+
+    def despawn(self, character: int) -> int:
+        """Take a character out of the world."""
+        sequence = self._next()
+        self._send(m.Despawn(sequence=sequence, character=character))
+        return sequence
+
+    def ping(self, timeout: float = 5.0) -> float:
+        """Seconds until the pong came; messages that come meanwhile are kept for later.
+
+        Raises:
+            RefusedError: with code ``timeout`` where none comes in ``timeout`` seconds.
+        """
+        sent = time.monotonic()
+        self._nonce += 1
+        self._send(m.Ping(nonce=self._nonce))
+        while (answer := self._arrival(sent + timeout - time.monotonic())) is not None:
+            if isinstance(answer, m.Pong) and answer.nonce == self._nonce:
+                return time.monotonic() - sent
+            self._waiting.append(answer)
+        raise RefusedError("timeout", f"no pong in {timeout:g} s")
+
+    def receive(self, timeout: float) -> m.FromServer | None:
+        """The next message of any kind, None where none comes in ``timeout`` seconds.
+
+        Pings by itself, so that a client which only looks is not taken for dead.
+
+        Raises:
+            PeerError: for a server that does not keep to the protocol.
+        """
+        return self._waiting.popleft() if self._waiting else self._arrival(timeout)
+
+    def _arrival(self, timeout: float) -> m.FromServer | None:
+        end = time.monotonic() + timeout
+        while True:
+            if time.monotonic() - self._sent > self._ping_every and self._connection.state is State.OPEN:
+                self._send(m.Ping())
+            left = max(0.0, end - time.monotonic())
+            if self._socket.poll(math.ceil(1000.0 * min(left, self._ping_every))):
+                return self._connection.receive(self._socket.recv())  # type: ignore[return-value]
+            if time.monotonic() >= end:
+                return None
+
+    def poses(self, timeout: float = 5.0) -> Iterator[m.Pose]:
+        """Poses as they come, for as long as they do; events and pongs are passed over.
+
+        Raises:
+            RefusedError: where the server refuses a message, says bye, or is silent for ``timeout`` seconds.
+        """
+        while True:
+            message = self._require(timeout, "no pose")
+            if isinstance(message, m.Pose):
+                yield message
+
+    def _require(self, timeout: float, problem: str) -> m.FromServer:
+        message = self.receive(timeout)
+        if message is None:
+            raise RefusedError("timeout", f"{problem} in {timeout:g} s")
+        if isinstance(message, m.Error):
+            raise RefusedError(message.code, message.message, message.sequence, message.valid)
+        if isinstance(message, m.Bye):
+            raise RefusedError(message.reason, "the server ended the session")
+        return message
+
+    def _next(self) -> int:
+        self._sequence += 1
+        return self._sequence
+
+    def _send(self, message: m.FromClient) -> None:
+        self._sent = time.monotonic()
+        try:
+            self._socket.send(self._connection.send(message), zmq.NOBLOCK)
+        except zmq.Again:
+            raise RefusedError("timeout", "the server takes no more messages") from None
+
+    def close(self) -> None:
+        """Say bye, if the session is still open, and let go of the socket."""
+        if not self._socket.closed and self._connection.state is State.OPEN:
+            self._send(m.Bye(reason="done"))
+        self._socket.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()

@@ -1,0 +1,90 @@
+"""The ROUTER socket: addresses, dead and slow peers."""
+
+import time
+
+import pytest
+import zmq
+
+from footwork.errors import InputError
+from footwork.runtime.router import Router, Sent, is_local
+
+
+@pytest.fixture
+def router():
+    router = Router("tcp://127.0.0.1:0")
+    yield router
+    router.close()
+
+
+@pytest.fixture
+def dealer(router):
+    socket = zmq.Context.instance().socket(zmq.DEALER)
+    socket.set(zmq.RCVHWM, 10)
+    socket.connect(router.address)
+    yield socket
+    socket.close(linger=0)
+
+
+def test_the_port_that_was_taken_is_told(router, dealer):
+    dealer.send(b"hello")
+    assert router.poll(2000)
+    peer, data = router.receive()
+    assert data == b"hello"
+    assert router.send(peer, b"answer") is Sent.QUEUED
+    assert dealer.recv() == b"answer"
+    assert router.receive() is None
+
+
+def test_a_peer_that_does_not_read_loses_messages_and_takes_no_time(router, dealer):
+    dealer.send(b"hello")
+    router.poll(2000)
+    peer, _ = router.receive()
+    begun = time.monotonic()
+    outcomes = {router.send(peer, bytes(60000)) for _ in range(3000)}
+    assert outcomes == {Sent.QUEUED, Sent.DROPPED}
+    assert time.monotonic() - begun < 5.0
+
+
+def test_a_peer_that_left_is_told_of(router, dealer):
+    dealer.send(b"hello")
+    router.poll(2000)
+    peer, _ = router.receive()
+    dealer.close(linger=0)
+    end = time.monotonic() + 5.0
+    while (sent := router.send(peer, b"anyone?")) is Sent.QUEUED and time.monotonic() < end:
+        router.poll(5)
+    assert sent is Sent.GONE
+
+
+@pytest.mark.parametrize("bind", ["tcp://127.0.0.1:notaport", "nonsense", "tcp://300.1.1.1:5", "ftp://127.0.0.1:1"])
+def test_an_address_that_cannot_be_bound_is_the_callers_error(bind):
+    with pytest.raises(InputError, match="cannot bind"):
+        Router(bind)
+
+
+def test_a_port_in_use_is_the_callers_error(router):
+    with pytest.raises(InputError, match="in use"):
+        Router(router.address)
+
+
+def test_what_other_machines_can_reach_gets_a_warning(caplog):
+    Router("tcp://0.0.0.0:0").close()
+    assert "can be reached from other machines" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("address", "local"),
+    [
+        ("tcp://127.0.0.1:5555", True),
+        ("tcp://127.8.0.1:5555", True),
+        ("tcp://[::1]:5555", True),
+        ("tcp://localhost:5555", True),
+        ("ipc:///run/footwork", True),
+        ("tcp://0.0.0.0:5555", False),
+        ("tcp://192.168.1.4:5555", False),
+        ("tcp://[::]:5555", False),
+        ("tcp://example.org:5555", False),
+    ],
+)
+def test_which_addresses_are_local(address, local):
+    assert is_local(address) is local
