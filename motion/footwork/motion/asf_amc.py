@@ -20,7 +20,6 @@ from footwork.motion.textfile import number_rows, read_lines, whole_number
 __all__ = ["CMU_RATE", "AsfSkeleton", "read_amc", "read_asf"]
 
 CMU_RATE = 120.0
-FLAGS = (b":FULLY-SPECIFIED", b":DEGREES")
 
 
 @dataclass
@@ -67,7 +66,7 @@ def _split(path: str | Path, lines: list[bytes], asf: AsfSkeleton) -> tuple[list
     for line, text in enumerate(lines, start=1):
         row = text.split()
         if not row or row[0][:1] in (b"#", b":"):
-            _check_flag(row, f"{path}:{line}")
+            _check_flag(row, asf, f"{path}:{line}")
         elif (track := known.get(row[0])) is not None and starts:
             track.lines.append(line)
             track.rows.append(row[1:])
@@ -79,10 +78,11 @@ def _split(path: str | Path, lines: list[bytes], asf: AsfSkeleton) -> tuple[list
     return starts, {name.decode(): track for name, track in known.items()}
 
 
-def _check_flag(row: list[bytes], where: str) -> None:
-    if row and row[0].startswith(b":") and row[0].upper() not in FLAGS:
-        valid = ", ".join(flag.decode() for flag in FLAGS)
-        raise InputError(f"{row[0][:40].decode(errors='replace')!r} is not supported, expected {valid}", where)
+def _check_flag(row: list[bytes], asf: AsfSkeleton, where: str) -> None:
+    valid = (b":FULLY-SPECIFIED", b":RADIANS" if asf.radians == 1.0 else b":DEGREES")
+    if row and row[0].startswith(b":") and row[0].upper() not in valid:
+        expected = " or ".join(flag.decode() for flag in valid)
+        raise InputError(f"{row[0][:40].decode(errors='replace')!r}, but its skeleton allows only {expected}", where)
 
 
 def _check_frame_number(row: list[bytes], wanted: int, where: str) -> None:
