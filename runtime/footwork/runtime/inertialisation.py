@@ -1,0 +1,190 @@
+"""Inertialisation: what is left of the old motion after a jump in the graph, dying away over the new motion.
+
+At a transition the pose jumps. The difference between the pose last shown and the new motion becomes an offset with
+a velocity of its own, and both decay like a critically damped spring of half-life h (papers.md 10)::
+
+    y = 2 ln 2 / h    j = v + x y    x <- exp(-y t) (x + j t)    v <- exp(-y t) (v - j y t)
+
+The pose shown is the new motion plus the offset. A root offset is a vector in the world. A joint's offset is a
+rotation vector in its parent's frame (joint 0: in the world) put before the joint's own rotation, ``exp(x) q``.
+"""
+
+import math
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.runtime.rotation_kernels import (
+    along,
+    before,
+    exp,
+    log,
+    multiply,
+    planar,
+    rate,
+    rotate,
+    spin,
+    turned,
+    wide3,
+    wide4,
+)
+
+TICK = 1.0 / 30.0
+"""Seconds of one tick."""
+
+NEGLIGIBLE = 1e-6
+"""Offsets under this many metres and radians are dropped."""
+
+_TOO_FAST = 100.0
+"""Offset velocities are held under this, rad/s: so an offset stays under a whole turn, where the series hold."""
+
+
+@numba.njit(cache=True, nogil=True)
+def decay_weights(seconds: float, halflife: float) -> tuple[float, float, float, float]:
+    """The spring as weights (a, b, c, d): after ``seconds``, x is ``a x + b v`` and v is ``c x + d v``."""
+    y = 2.0 * math.log(2.0) / halflife
+    e = math.exp(-y * seconds)
+    return e * (1.0 + y * seconds), e * seconds, -e * y * y * seconds, e * (1.0 - y * seconds)
+
+
+@numba.njit(cache=True, nogil=True)
+def _capped(v, limit):
+    size = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    scale = 1.0 if size <= limit else limit / size
+    return v[0] * scale, v[1] * scale, v[2] * scale
+
+
+@numba.njit(cache=True, nogil=True)
+def _joint_offset(offset, velocity, old, old_spin, new, new_spin):
+    """Offset and offset velocity of one joint over its new motion, such that the pose shown goes on smoothly.
+
+    The velocity of the pose shown is that of the offset, ``spin(x, v)``, plus that of the motion below it turned by
+    the offset, ``exp(x) w``. Keeping their sum is exact for offsets of any size; to first order it is the rule
+    of papers.md 10, offset velocity = velocity of the source - velocity of the target.
+
+    Args:
+        offset: over the old motion.
+        velocity: of that offset.
+        old: the old motion's local rotation.
+        old_spin: its angular velocity.
+        new: the new motion's local rotation at the same time.
+        new_spin: its angular velocity.
+    """
+    shown = multiply(exp(offset[0], offset[1], offset[2]), old)
+    left = log(multiply(shown, (-new[0], -new[1], -new[2], new[3])))
+    speed = along(spin(offset, velocity), 1.0, rotate(offset, old_spin), -1.0, rotate(left, new_spin))
+    return left, _capped(rate(left, speed), _TOO_FAST)
+
+
+@numba.njit(cache=True, nogil=True)
+def decay(active: NDArray, offsets: NDArray, velocities: NDArray, roots: NDArray, seconds: float, halflife: float):
+    """Let the offsets of all active characters decay by ``seconds``, in place.
+
+    Args:
+        active: which rows are characters.  # (C,)
+        offsets: of the joints, rad.  # (C, J, 3)
+        velocities: of those, rad/s.  # (C, J, 3)
+        roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
+        seconds: how long.
+        halflife: of the spring, s.
+    """
+    a, b, c, d = decay_weights(seconds, halflife)
+    fa, fb, fc, fd = np.float32(a), np.float32(b), np.float32(c), np.float32(d)
+    for who in range(active.shape[0]):
+        if not active[who]:
+            continue
+        for k in range(3):
+            x, v = roots[who, 0, k], roots[who, 1, k]
+            roots[who, 0, k] = a * x + b * v
+            roots[who, 1, k] = c * x + d * v
+        for joint in range(offsets.shape[1]):
+            for k in range(3):
+                x, v = offsets[who, joint, k], velocities[who, joint, k]
+                offsets[who, joint, k] = fa * x + fb * v
+                velocities[who, joint, k] = fc * x + fd * v
+
+
+@numba.njit(cache=True, nogil=True)
+def _jump_root(root, position, velocity, place, cosine, sine, sign):
+    """Add ``sign`` times the root's place and velocity in the world to its offset (2, 3)."""
+    x, y, z = turned(cosine, sine, position)
+    root[0, 0] += sign * (place[0] + x)
+    root[0, 1] += sign * y
+    root[0, 2] += sign * (place[1] + z)
+    x, y, z = turned(cosine, sine, velocity)
+    root[1, 0] += sign * x
+    root[1, 1] += sign * y
+    root[1, 2] += sign * z
+
+
+@numba.njit(cache=True, nogil=True)
+def _jump_joints(offsets, velocities, old, old_spins, new, new_spins, old_yaw, new_yaw):
+    """Offsets (J, 3) and velocities (J, 3) of one character's joints over the new motion, in place."""
+    for joint in range(offsets.shape[0]):
+        old_turn, old_spin = wide4(old[joint]), wide3(old_spins[joint])
+        new_turn, new_spin = before(new_spins[joint], new[joint], TICK), wide3(new_spins[joint])
+        if joint == 0:
+            old_turn = planar(old_turn, math.cos(0.5 * old_yaw), math.sin(0.5 * old_yaw))
+            new_turn = planar(new_turn, math.cos(0.5 * new_yaw), math.sin(0.5 * new_yaw))
+            old_spin = turned(math.cos(old_yaw), math.sin(old_yaw), old_spin)
+            new_spin = turned(math.cos(new_yaw), math.sin(new_yaw), new_spin)
+        x, v = wide3(offsets[joint]), wide3(velocities[joint])
+        x, v = _joint_offset(x, v, old_turn, old_spin, new_turn, new_spin)
+        for k in range(3):
+            offsets[joint, k] = x[k]
+            velocities[joint, k] = v[k]
+
+
+@numba.njit(cache=True, nogil=True)
+def jump(
+    who: int,
+    old_node: int,
+    old_place: NDArray,
+    new_node: int,
+    new_place: NDArray,
+    root_position: NDArray,
+    root_velocity: NDArray,
+    rotations: NDArray,
+    angular_velocity: NDArray,
+    offsets: NDArray,
+    velocities: NDArray,
+    roots: NDArray,
+) -> None:
+    """Take a transition's jump into a character's offsets, in place.
+
+    The jump goes from the old node to the frame before the new one, which the new node's backward velocities give.
+
+    Args:
+        who: the character's row.
+        old_node: where it was.
+        old_place: its planar place there, (x, z, yaw).  # (3,)
+        new_node: where the edge led.
+        new_place: its planar place there.  # (3,)
+        root_position: of the graph.  # (N, 3)
+        root_velocity: of the graph.  # (N, 3)
+        rotations: of the graph.  # (N, J, 4)
+        angular_velocity: of the graph.  # (N, J, 3)
+        offsets: of the joints at the end of the last tick, rad.  # (C, J, 3)
+        velocities: of those, rad/s.  # (C, J, 3)
+        roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
+    """
+    cosine, sine = math.cos(old_place[2]), math.sin(old_place[2])
+    root = roots[who]
+    _jump_root(root, root_position[old_node], root_velocity[old_node], old_place, cosine, sine, 1.0)
+    cosine, sine = math.cos(new_place[2]), math.sin(new_place[2])
+    _jump_root(root, root_position[new_node], root_velocity[new_node], new_place, cosine, sine, -1.0)
+    x, y, z = turned(cosine, sine, root_velocity[new_node])
+    root[0, 0] += TICK * x
+    root[0, 1] += TICK * y
+    root[0, 2] += TICK * z
+    _jump_joints(
+        offsets[who],
+        velocities[who],
+        rotations[old_node],
+        angular_velocity[old_node],
+        rotations[new_node],
+        angular_velocity[new_node],
+        old_place[2],
+        new_place[2],
+    )

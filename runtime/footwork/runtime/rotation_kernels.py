@@ -1,0 +1,128 @@
+"""Rotations inside compiled loops: quaternions xyzw and vectors as tuples of numbers.
+
+The same formulas for whole arrays are in ``footwork.motion.quaternion``. Compiled callers keep a cache that notices
+changes of their own file only: after a change here, delete the ``__pycache__`` folder.
+"""
+
+import math
+
+import numba
+import numpy as np
+
+# Taylor series of cos(u) and sin(u) / u in u^2, good to 1e-8 up to u = pi / 2, in float32 so that constants do not
+# widen the arithmetic. A call of sin or cos would keep the compiler from working on several joints at once.
+_C1, _C2, _C3, _C4, _C5, _C6 = (np.float32((-1.0) ** n / math.factorial(2 * n)) for n in range(1, 7))
+_S1, _S2, _S3, _S4, _S5, _S6 = (np.float32((-1.0) ** n / math.factorial(2 * n + 1)) for n in range(1, 7))
+_ONE, _TWO, _HALF, _SIXTEENTH = np.float32(1.0), np.float32(2.0), np.float32(0.5), np.float32(0.0625)
+
+
+@numba.njit(cache=True, nogil=True)
+def exp(x, y, z):
+    """The quaternion of a rotation vector under a whole turn: series at a quarter of the angle, doubled.
+
+    It works in the width of its arguments and is good to float32.
+    """
+    u = _SIXTEENTH * (x * x + y * y + z * z)
+    cosine = _ONE + u * (_C1 + u * (_C2 + u * (_C3 + u * (_C4 + u * (_C5 + u * _C6)))))
+    sinc = _ONE + u * (_S1 + u * (_S2 + u * (_S3 + u * (_S4 + u * (_S5 + u * _S6)))))
+    scale = _HALF * sinc * cosine
+    return x * scale, y * scale, z * scale, _ONE - _TWO * u * sinc * sinc
+
+
+@numba.njit(cache=True, nogil=True)
+def multiply(a, b):
+    """The Hamilton product a b."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+@numba.njit(cache=True, nogil=True)
+def log(q):
+    """The rotation vector of the shorter way round."""
+    x, y, z, w = q
+    if w < 0.0:
+        x, y, z, w = -x, -y, -z, -w
+    sine = math.sqrt(x * x + y * y + z * z)
+    scale = 2.0 if sine < 1e-12 else 2.0 * math.atan2(sine, w) / sine
+    return x * scale, y * scale, z * scale
+
+
+@numba.njit(cache=True, nogil=True)
+def cross(a, b):
+    """a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@numba.njit(cache=True, nogil=True)
+def along(v, a, u, b, w):
+    """v + a u + b w of vectors."""
+    return v[0] + a * u[0] + b * w[0], v[1] + a * u[1] + b * w[1], v[2] + a * u[2] + b * w[2]
+
+
+@numba.njit(cache=True, nogil=True)
+def rotate(x, v):
+    """exp(x) v by Rodrigues' formula."""
+    angle = math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+    tiny = angle < 1e-6
+    first = 1.0 if tiny else math.sin(angle) / angle
+    second = 0.5 if tiny else (1.0 - math.cos(angle)) / (angle * angle)
+    across = cross(x, v)
+    return along(v, first, across, second, cross(x, across))
+
+
+@numba.njit(cache=True, nogil=True)
+def spin(x, v):
+    """The angular velocity of exp(x) where x changes at rate v: the left Jacobian of SO(3) times v."""
+    angle = math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+    tiny = angle < 1e-3
+    first = 0.5 if tiny else (1.0 - math.cos(angle)) / (angle * angle)
+    second = 1.0 / 6.0 if tiny else (angle - math.sin(angle)) / (angle * angle * angle)
+    across = cross(x, v)
+    return along(v, first, across, second, cross(x, across))
+
+
+@numba.njit(cache=True, nogil=True)
+def rate(x, spin):
+    """The rate at which x changes while exp(x) turns at ``spin``: the inverse of ``spin``, for angles up to pi."""
+    angle = math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+    half = 0.5 * angle
+    second = 1.0 / 12.0 if angle < 1e-3 else (1.0 - half / math.tan(half)) / (angle * angle)
+    across = cross(x, spin)
+    return along(spin, -0.5, across, second, cross(x, across))
+
+
+@numba.njit(cache=True, nogil=True)
+def turned(cosine, sine, v):
+    """The vector v (3,) turned about +y."""
+    return cosine * v[0] + sine * v[2], float(v[1]), cosine * v[2] - sine * v[0]
+
+
+@numba.njit(cache=True, nogil=True)
+def planar(q, cosine, sine):
+    """A rotation in a planar frame, seen from the world: turned about +y by twice the angle of (cosine, sine)."""
+    return multiply((0.0, sine, 0.0, cosine), q)
+
+
+@numba.njit(cache=True, nogil=True)
+def before(spin, q, seconds):
+    """The rotation q (4,) turning at ``spin`` (3,), as it was ``seconds`` before; in float64."""
+    turn = exp(-seconds * spin[0], -seconds * spin[1], -seconds * spin[2])
+    return multiply(turn, wide4(q))
+
+
+@numba.njit(cache=True, nogil=True)
+def wide3(values):
+    """The three numbers of an array as a tuple in float64."""
+    return float(values[0]), float(values[1]), float(values[2])
+
+
+@numba.njit(cache=True, nogil=True)
+def wide4(values):
+    """The four numbers of an array as a tuple in float64."""
+    return float(values[0]), float(values[1]), float(values[2]), float(values[3])

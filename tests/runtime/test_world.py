@@ -1,0 +1,151 @@
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footwork.motion import kinematics, quaternion
+from footwork.runtime.world import NoSuchCharacter, World, WorldError, WorldFull, WrongEdge
+from toy_graphs import edge_between, graph_of, homogeneous, planar_places, wandering_clip
+
+CLIPS = [wandering_clip(1), wandering_clip(2)]
+FRAMES = CLIPS[0].frame_count
+GRAPH = graph_of(CLIPS, [(10, FRAMES + 5), (15, 3), (FRAMES + 12, 4), (2 * FRAMES - 1, 2), (FRAMES - 1, FRAMES)])
+coordinate = st.floats(-50.0, 50.0)
+
+
+def steps(world: World, path: list[int], slot: int = 0) -> None:
+    for source, target in itertools.pairwise(path):
+        edges = np.zeros(world.capacity, dtype=np.int32)
+        edges[slot] = edge_between(world.graph, source, target)
+        world.step(edges)
+
+
+def random_edges(world: World, random: np.random.Generator) -> np.ndarray:
+    """Any edge out of each node; this graph has no dead ends."""
+    first, end = world.graph.edge_start[world.node], world.graph.edge_start[world.node + 1]
+    return random.integers(first, end).astype(np.int32)
+
+
+def seen(world: World, fraction: float, slot: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    root, rotations = world.show(fraction)
+    return root[slot].astype(float), rotations[slot].astype(float)
+
+
+def angle_between(a, b) -> float:
+    return float(
+        np.linalg.norm(quaternion.to_rotation_vector(quaternion.multiply(a, quaternion.conjugate(b))), axis=-1).max()
+    )
+
+
+@given(coordinate, coordinate, st.floats(-3.1, 3.1), st.integers(0, FRAMES - 2))
+@settings(max_examples=20, deadline=None)
+def test_natural_edges_replay_the_clip_up_to_a_planar_transform(x, z, yaw, start):
+    clip = CLIPS[1]
+    world = World(GRAPH, 1)
+    world.spawn(FRAMES + start, x, z, yaw)
+    to_world = homogeneous((x, z, yaw)) @ np.linalg.inv(homogeneous(planar_places(clip)[start]))
+    places, _ = kinematics.clip_places(clip)
+    for frame in range(start, clip.frame_count):
+        if frame > start:
+            steps(world, [FRAMES + frame - 1, FRAMES + frame])
+        expected = places[frame] @ to_world[:3, :3].T + to_world[:3, 3]
+        shown, _ = kinematics.forward(clip.skeleton, *seen(world, 1.0))
+        np.testing.assert_allclose(shown, expected, atol=1e-5)
+
+
+def test_a_tick_starts_where_the_capture_was_a_tick_before():
+    world = World(GRAPH, 1)
+    world.spawn(4, 1.0, 2.0, 0.5)
+    root, rotations = seen(world, 1.0)
+    steps(world, [4, 5])
+    root_after, rotations_after = seen(world, 1e-9)
+    np.testing.assert_allclose(root_after, root, atol=1e-6)
+    assert angle_between(rotations_after, rotations) < 1e-6
+
+
+@given(coordinate, coordinate, st.floats(-3.1, 3.1), st.integers(0, 2**31))
+@settings(max_examples=20, deadline=None)
+def test_places_compose_like_homogeneous_matrices(x, z, yaw, seed):
+    random, world = np.random.default_rng(seed), World(GRAPH, 1)
+    world.spawn(0, x, z, yaw)
+    matrix = homogeneous((x, z, yaw))
+    for _ in range(30):
+        edges = random_edges(world, random)
+        matrix = matrix @ homogeneous(GRAPH.displacement[edges[0]].astype(float))
+        world.step(edges)
+        np.testing.assert_allclose(homogeneous(world.place[0]), matrix, atol=1e-9)
+
+
+def test_place_yaw_is_where_the_body_faces():
+    world = World(GRAPH, 1, inertialise=False)
+    world.spawn(3, 1.0, 2.0, 2.9)
+    for source in range(3, 10):
+        steps(world, [source, source + 1])
+        places, _ = kinematics.forward(GRAPH.skeleton, *seen(world, 1.0))
+        assert np.sin(kinematics.facing_yaw(GRAPH.skeleton, places) - world.place[0, 2]) == pytest.approx(0.0, abs=1e-5)
+
+
+def test_many_characters_step_as_each_would_alone():
+    together, alone = World(GRAPH, 8), [World(GRAPH, 1) for _ in range(8)]
+    for slot, world in enumerate(alone):
+        for each in (together, world):
+            each.spawn(slot, slot, -slot, 0.3 * slot)
+    random = np.random.default_rng(3)
+    for _ in range(60):
+        edges = random_edges(together, random)
+        together.step(edges)
+        for slot, world in enumerate(alone):
+            world.step(edges[slot : slot + 1])
+        root, rotations = together.show(0.5)
+        for slot, world in enumerate(alone):
+            alone_root, alone_rotations = world.show(0.5)
+            assert root[slot].tobytes() == alone_root.tobytes()
+            assert rotations[slot].tobytes() == alone_rotations.tobytes()
+
+
+def test_a_wrong_edge_is_named_and_nobody_moves():
+    world = World(GRAPH, 2)
+    world.spawn(0, 0.0, 0.0, 0.0)
+    world.spawn(5, 0.0, 0.0, 0.0)
+    with pytest.raises(WrongEdge, match="character 1 at node 5 was given edge 0, expected 5 to 5"):
+        world.step(np.zeros(2, dtype=np.int32))
+    assert world.node.tolist() == [0, 5]
+    with pytest.raises(WrongEdge):
+        world.step(np.array([-1, 5], dtype=np.int32))
+
+
+def test_slots_are_reused_and_a_full_world_says_so():
+    world = World(GRAPH, 2)
+    assert [world.spawn(0, 0, 0, 0), world.spawn(1, 0, 0, 0)] == [0, 1]
+    with pytest.raises(WorldFull, match="all 2"):
+        world.spawn(0, 0, 0, 0)
+    world.remove(0)
+    with pytest.raises(NoSuchCharacter, match="no character 0"):
+        world.correct(0, 0, 0, 0)
+    assert world.spawn(7, 0, 0, 0) == 0
+    assert world.edge.tolist() == [-1, -1]
+
+
+@pytest.mark.parametrize("slot", [-1, 2, 1])
+def test_bad_slots_are_refused(slot):
+    world = World(GRAPH, 2)
+    world.spawn(0, 0, 0, 0)
+    with pytest.raises(NoSuchCharacter):
+        world.remove(slot)
+
+
+def test_bad_arguments_are_refused():
+    world = World(GRAPH, 1)
+    for place in [(np.nan, 0, 0), (0, np.inf, 0), (0, 0, -np.inf)]:
+        with pytest.raises(WorldError, match="expected finite"):
+            world.spawn(0, *place)
+    with pytest.raises(WorldError, match=f"node {2 * FRAMES}"):
+        world.spawn(2 * FRAMES, 0, 0, 0)
+    for fraction in (0.0, 1.01, np.nan):
+        with pytest.raises(WorldError, match="fraction"):
+            world.show(fraction)
+    for capacity, halflife in [(0, 0.1), (1, 0.0), (1, np.nan)]:
+        with pytest.raises(WorldError):
+            World(GRAPH, capacity, halflife=halflife)
