@@ -1,0 +1,109 @@
+"""Commands: from held keys, or heading and behaviour outright, to what a controller is asked for (design.md)."""
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from footwork.errors import InputError
+from footwork.motion.task import ONE_SHOT
+
+NONE = -1
+
+
+class UnknownBehaviour(InputError):  # noqa: N818  (it reads as what happened)
+    """A behaviour was asked for that the bundle lacks; the message lists those it has."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """What a character shall do from now on.
+
+    Args:
+        heading: wanted yaw in the world, radians.
+        behaviour: index of the behaviour to go on with, -1 to go on as before.
+        one_shot: index of a behaviour to do once, such as a jump, -1 for none.
+    """
+
+    heading: float
+    behaviour: int
+    one_shot: int = NONE
+
+
+def heading_of_keys(view_yaw: ArrayLike, forward: ArrayLike, strafe: ArrayLike) -> NDArray[np.float64]:
+    """Wanted heading, radians: view yaw + atan2(-strafe, forward), the view yaw itself with no key held.
+
+    Source: traces/PROVENANCE.md, "As steering commands". All arguments broadcast.
+
+    Args:
+        view_yaw: where the camera looks, radians.
+        forward: -1 back, 0, 1 forward.
+        strafe: -1 left, 0, 1 right.
+    """
+    # Adding 0.0 turns a negative zero into zero: atan2(-0.0, -0.0) is half a turn.
+    right, ahead = np.asarray(strafe) + 0.0, np.asarray(forward) + 0.0
+    return np.asarray(view_yaw, dtype=np.float64) + np.arctan2(0.0 - right, ahead)
+
+
+def behaviour_of_keys(forward: float, strafe: float, run: bool, present: Collection[str]) -> str:
+    """The behaviour that held keys ask for: stop with no direction, else run or walk; walk where no run is present.
+
+    Source: traces/PROVENANCE.md, "As steering commands".
+    """
+    if forward == 0 and strafe == 0:
+        return "stop"
+    return "run" if run and "run" in present else "walk"
+
+
+class Vocabulary:
+    """Reads commands for one bundle.
+
+    Args:
+        behaviours: all that commands number, in order (``MotionGraph.behaviours``).
+        present: those that some frame shows (``SteeringController.present``).
+    """
+
+    def __init__(self, behaviours: tuple[str, ...], present: Collection[str]) -> None:
+        self.present = tuple(name for name in behaviours if name in present)
+        self._index = {name: index for index, name in enumerate(behaviours) if name in present}
+
+    def index(self, behaviour: str) -> int:
+        """The number of a behaviour.
+
+        Raises:
+            UnknownBehaviour: for one that no frame shows.
+        """
+        try:
+            return self._index[behaviour]
+        except KeyError:
+            raise UnknownBehaviour(f"no behaviour {behaviour!r}, it has {', '.join(self.present)}", "command") from None
+
+    def of_keys(self, view_yaw: float, forward: float, strafe: float, run: bool, one_shot: str = "") -> Command:
+        """The command of held keys; ``one_shot`` names the behaviour whose key is held, such as jump.
+
+        Raises:
+            UnknownBehaviour: for a behaviour that no frame shows.
+            InputError: for a view yaw that is not finite.
+        """
+        _require_finite(view_yaw, "view_yaw")
+        once = self.index(one_shot) if one_shot else NONE
+        lasting = self.index(behaviour_of_keys(forward, strafe, run, self.present))
+        return Command(float(heading_of_keys(view_yaw, forward, strafe)), lasting, once)
+
+    def outright(self, heading: float, behaviour: str) -> Command:
+        """The command for a heading and a behaviour; one-shot behaviours leave the lasting one as it is.
+
+        Raises:
+            UnknownBehaviour: for a behaviour that no frame shows.
+            InputError: for a heading that is not finite.
+        """
+        _require_finite(heading, "heading")
+        index = self.index(behaviour)
+        return Command(heading, NONE, index) if behaviour in ONE_SHOT else Command(heading, index)
+
+
+def _require_finite(value: float, name: str) -> None:
+    if not math.isfinite(value):
+        raise InputError(f"{name} is {value}, expected a finite number of radians", "command")

@@ -1,0 +1,68 @@
+import numpy as np
+
+from footwork.controllers.command import NONE, Command
+from footwork.controllers.orders import LATCH_TICKS, Orders
+
+STOP, WALK, RUN, JUMP, DUCK = range(5)
+
+
+def asked(orders: Orders, shown: int) -> int:
+    return int(orders.at_tick(np.array([shown]))[0])
+
+
+def walking() -> Orders:
+    orders = Orders(1)
+    orders.begin(0, 0.0, WALK)
+    return orders
+
+
+def test_a_one_shot_is_asked_for_until_it_is_entered():
+    orders = walking()
+    orders.give(0, Command(0.5, WALK, JUMP), shown=WALK)
+    orders.give(0, Command(0.7, RUN), shown=WALK)
+    assert [asked(orders, WALK) for _ in range(5)] == [JUMP] * 5
+    assert asked(orders, JUMP) == RUN
+    assert asked(orders, WALK) == RUN
+    assert orders.heading[0] == 0.7
+
+
+def test_a_one_shot_waits_for_a_second_at_most():
+    orders = walking()
+    orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
+    assert [asked(orders, WALK) for _ in range(LATCH_TICKS + 2)] == [JUMP] * 30 + [WALK] * 2
+
+
+def test_a_one_shot_is_ignored_while_the_character_is_in_it():
+    orders = walking()
+    orders.give(0, Command(0.0, WALK, JUMP), shown=JUMP)
+    assert asked(orders, JUMP) == WALK
+    assert asked(orders, WALK) == WALK
+
+
+def test_a_key_that_stays_down_asks_once():
+    orders = walking()
+    for _ in range(3):
+        orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
+    assert asked(orders, JUMP) == WALK
+    orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
+    assert asked(orders, WALK) == WALK
+    orders.give(0, Command(0.0, WALK), shown=WALK)
+    orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
+    assert asked(orders, WALK) == JUMP
+
+
+def test_the_last_one_shot_asked_for_counts():
+    orders = walking()
+    orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
+    orders.give(0, Command(0.0, NONE, DUCK), shown=WALK)
+    assert asked(orders, WALK) == DUCK
+    assert asked(orders, DUCK) == WALK
+
+
+def test_characters_wait_apart_and_a_new_one_begins_afresh():
+    orders = Orders(2)
+    orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
+    assert orders.at_tick(np.array([WALK, STOP])).tolist() == [JUMP, STOP]
+    orders.begin(0, 1.0, STOP)
+    assert orders.at_tick(np.array([WALK, STOP])).tolist() == [STOP, STOP]
+    assert orders.heading.tolist() == [1.0, 0.0]
