@@ -1,0 +1,144 @@
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from footwork.controllers.steering import SteeringController, WrongQuestion
+from footwork.errors import InputError
+from footwork.motion.body import default_body
+from footwork.motion.graph import MotionGraph
+from footwork.motion.lookahead import edge_value
+from footwork.motion.table import PolicyTable
+from footwork.motion.task import SteeringTask
+from footwork.runtime.world import World
+
+TURN = math.radians(1.5)
+STRAIGHT, LEFT, RIGHT, STAND = range(4)
+BEHAVIOURS = ("stop", "walk", "run", "jump")
+TASK = SteeringTask(behaviours=BEHAVIOURS, heading_bins=16, discount=0.95)
+
+
+def loops() -> MotionGraph:
+    """Frames that go straight, left, right or stand, each followed by any; turns are slower than a heading bin."""
+    body, nodes = default_body(), 4
+    yaw = np.tile([0.0, TURN, -TURN, 0.0], nodes)
+    ahead = np.tile([0.04, 0.04, 0.04, 0.0], nodes)
+    natural = np.eye(nodes, dtype=bool).ravel()
+    arrays: dict[str, Any] = {
+        "clip": np.zeros(nodes),
+        "frame": np.arange(nodes),
+        "label": np.zeros(nodes),
+        "behaviour": [1, 1, 1, 0],
+        "contacts": np.zeros((nodes, 2)),
+        "root_position": np.tile([0.0, 0.9, 0.0], (nodes, 1)),
+        "rotations": np.tile([0.0, 0.0, 0.0, 1.0], (nodes, body.joint_count, 1)),
+        "root_velocity": np.zeros((nodes, 3)),
+        "angular_velocity": np.zeros((nodes, body.joint_count, 3)),
+        "edge_start": nodes * np.arange(nodes + 1),
+        "target": np.tile(np.arange(nodes), nodes),
+        "cost": np.where(natural, 0.0, 0.05),
+        "smoothness": np.where(natural, 1.0, 0.95),
+        "displacement": np.stack([np.zeros_like(yaw), ahead, yaw], axis=-1),
+        "natural": natural,
+    }
+    return MotionGraph(skeleton=body, clips=("loops",), labels=("walk",), behaviours=BEHAVIOURS, **arrays)
+
+
+def solved(graph: MotionGraph, sweeps: int = 120) -> np.ndarray:
+    """The values, by plain sweeps over every state."""
+    values = np.zeros((graph.node_count, len(BEHAVIOURS), TASK.heading_bins))
+    for _ in range(sweeps):
+        old = values.copy()
+        for (node, asked, bin_), _ in np.ndenumerate(values):
+            values[node, asked, bin_] = max(
+                edge_value(
+                    float(TASK.headings[bin_]),
+                    asked,
+                    bool(TASK.headed[asked]),
+                    int(graph.behaviour[graph.target[edge]]),
+                    float(graph.displacement[edge, 2]),
+                    float(graph.smoothness[edge]),
+                    old[graph.target[edge], asked],
+                    TASK.heading_sigma,
+                    TASK.discount,
+                )
+                for edge in range(graph.edge_start[node], graph.edge_start[node + 1])
+            )
+    return values.astype(np.float32)
+
+
+@cache
+def controller() -> SteeringController:
+    graph = loops()
+    return SteeringController(graph, PolicyTable(TASK, solved(graph), 1e-2, 120, True))
+
+
+def walk_towards(heading: float, ticks: int, start: int = STRAIGHT) -> tuple[World, list[int]]:
+    graph = controller().graph
+    world, path = World(graph, 1), []
+    world.spawn(start, 0.0, 0.0, 0.0)
+    edges = np.zeros(1, dtype=np.int32)
+    for _ in range(ticks):
+        controller().choose(world.node, world.place[:, 2], np.array([heading]), np.ones(1, dtype=np.int32), edges)
+        world.step(edges)
+        path.append(int(world.node[0]))
+    return world, path
+
+
+@pytest.mark.parametrize("degrees", [-170, -90, -20, 20, 90, 170])
+def test_it_turns_the_shorter_way_and_gets_there(degrees):
+    heading = math.radians(degrees)
+    world, path = walk_towards(heading, ticks=int(abs(degrees) / 1.5) + 4)
+    assert world.place[0, 2] == pytest.approx(heading, abs=TURN)
+    assert (RIGHT if degrees > 0 else LEFT) not in path
+
+
+@pytest.mark.parametrize("degrees", [350, 710, -350])
+def test_headings_past_a_whole_turn_are_the_same_headings(degrees):
+    world, _ = walk_towards(math.radians(degrees), ticks=20)
+    assert math.remainder(world.place[0, 2] - math.radians(degrees), 2 * math.pi) == pytest.approx(0.0, abs=TURN)
+
+
+@pytest.mark.parametrize("degrees", [3, 5, 8, 11, -3, -5, -8, -11])
+def test_there_is_no_dead_zone_within_half_a_bin(degrees):
+    world, _ = walk_towards(math.radians(degrees), ticks=20)
+    assert world.place[0, 2] == pytest.approx(math.radians(degrees), abs=TURN)
+
+
+def test_many_characters_are_asked_at_once():
+    node = np.array([STRAIGHT, STRAIGHT, STRAIGHT, LEFT], dtype=np.int32)
+    facing, heading = np.array([3.0, -3.0, 0.5, 0.0]), np.array([-3.0, 3.0, 0.5, 9.0])
+    behaviour, edges = np.array([1, 1, 1, 0], dtype=np.int32), np.zeros(4, dtype=np.int32)
+    controller().choose(node, facing, heading, behaviour, edges)
+    graph = controller().graph
+    assert graph.target[edges].tolist() == [LEFT, RIGHT, STRAIGHT, STAND]
+    assert graph.source[edges].tolist() == node.tolist()
+
+
+def test_questions_out_of_range_are_refused():
+    one, edges = np.zeros(1), np.zeros(1, dtype=np.int32)
+    for node, behaviour, message in [(4, 0, "node 4 of character 0"), (-1, 0, "node -1"), (0, 4, "behaviour 4")]:
+        with pytest.raises(WrongQuestion, match=message):
+            controller().choose(np.array([node]), one, one, np.array([behaviour]), edges)
+
+
+def test_it_starts_on_a_standing_frame():
+    assert controller().start_node() == STAND
+    assert controller().start_node("walk") in (STRAIGHT, LEFT, RIGHT)
+    assert controller().present == ("stop", "walk")
+    with pytest.raises(InputError, match="no behaviour 'swim', it has stop, walk, run, jump"):
+        controller().start_node("swim")
+
+
+def test_tables_that_do_not_fit_are_refused():
+    graph = loops()
+    values = np.zeros((4, 4, 16), dtype=np.float32)
+    with pytest.raises(InputError, match="not converged"):
+        SteeringController(graph, PolicyTable(TASK, values, 1.0, 5, False))
+    with pytest.raises(InputError, match="3 nodes, expected the graph's 4"):
+        SteeringController(graph, PolicyTable(TASK, values[:3], 0.0, 5, True))
+    other = SteeringTask(behaviours=("stop", "run", "walk", "jump"), heading_bins=16)
+    with pytest.raises(InputError, match="behaviours stop, run, walk, jump, expected"):
+        SteeringController(graph, PolicyTable(other, values, 0.0, 5, True))
