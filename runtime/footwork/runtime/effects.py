@@ -1,0 +1,92 @@
+"""How the messages of a session take effect on its characters, at the tick that they are for."""
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from footwork.controllers.command import Command, UnknownBehaviour
+from footwork.protocol import messages as m
+from footwork.protocol.errors import BEHAVIOUR, CHARACTER_TAKEN, CHARACTER_UNKNOWN, CHARACTERS, PeerError
+from footwork.runtime.limits import Limits
+from footwork.runtime.session import Character, Sequenced, Session
+from footwork.runtime.simulation import Simulation
+
+JUMP = "jump"
+
+
+class Effects:
+    """Messages onto a simulation.
+
+    Args:
+        simulation: the world that the characters live in.
+        limits: how many characters there may be.
+    """
+
+    def __init__(self, simulation: Simulation, limits: Limits) -> None:
+        self._simulation = simulation
+        self._limits = limits
+        self._by_type: dict[type, Callable[[Session, Any], str | None]] = {
+            m.Spawn: self._spawn,
+            m.Command: self._command,
+            m.Correct: self._correct,
+            m.Despawn: self._despawn,
+        }
+
+    def apply(self, session: Session, message: Sequenced) -> m.Event | None:
+        """Let a message take effect; the event to tell of it, if any.
+
+        Raises:
+            PeerError: for a message that cannot; nothing has changed then.
+        """
+        try:
+            kind = self._by_type[type(message)](session, message)
+        except UnknownBehaviour as error:
+            raise PeerError(BEHAVIOUR, error.problem, message.sequence, self._simulation.behaviours) from None
+        if kind is None:
+            return None
+        tick = self._simulation.tick + 1
+        return m.Event(tick=tick, kind=kind, character=message.character, sequence=message.sequence)
+
+    def _spawn(self, session: Session, message: m.Spawn) -> str:
+        number, sequence = message.character, message.sequence
+        most = self._limits.session_characters
+        if number in session.characters:
+            raise PeerError(CHARACTER_TAKEN, f"character {number} is there already", sequence)
+        if len(session.characters) >= most:
+            raise PeerError(CHARACTERS, f"the session has its {most} characters already", sequence)
+        if self._simulation.full:
+            raise PeerError(CHARACTERS, "the server has all the characters it takes", sequence)
+        slot = self._simulation.spawn(message.x, message.z, message.yaw, message.behaviour)
+        session.characters[number] = Character(slot, sequence)
+        return "spawned"
+
+    def _command(self, session: Session, message: m.Command) -> None:
+        character = self._character(session, message)
+        self._simulation.give(character.slot, self._read(message))
+        character.acknowledge(message.sequence)
+
+    def _read(self, message: m.Command) -> Command:
+        vocabulary = self._simulation.vocabulary
+        if message.keys is None:
+            # The message's own check lets none through that lacks either.
+            return vocabulary.outright(cast(float, message.heading), cast(str, message.behaviour))
+        keys = message.keys
+        return vocabulary.of_keys(keys.view_yaw, keys.forward, keys.strafe, keys.run, JUMP if keys.jump else "")
+
+    def _correct(self, session: Session, message: m.Correct) -> str:
+        character = self._character(session, message)
+        self._simulation.correct(character.slot, message.x, message.z, message.yaw)
+        character.acknowledge(message.sequence)
+        return "corrected"
+
+    def _despawn(self, session: Session, message: m.Despawn) -> str:
+        self._simulation.remove(self._character(session, message).slot)
+        del session.characters[message.character]
+        return "despawned"
+
+    def _character(self, session: Session, message: m.Command | m.Correct | m.Despawn) -> Character:
+        character = session.characters.get(message.character)
+        if character is None:
+            numbers = ", ".join(map(str, sorted(session.characters))) or "none"
+            problem = f"no character {message.character}, the session has {numbers}"
+            raise PeerError(CHARACTER_UNKNOWN, problem, message.sequence)
+        return character

@@ -1,0 +1,42 @@
+"""What a client is told on arrival."""
+
+from footwork.motion.bundle import Bundle
+from footwork.protocol import messages as m
+from footwork.protocol.codec import CLIENT_MESSAGE_BYTES, encode_checked
+from footwork.runtime.limits import Limits
+
+
+def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], tick: int, frame_rate: int, limits: Limits) -> m.Welcome:
+    """The welcome of a server that plays ``bundle``.
+
+    Args:
+        bundle: what is played.
+        behaviours: what commands may ask for.
+        tick: the tick last made.
+        frame_rate: shown frames a second.
+        limits: how much the client may ask for.
+
+    Raises:
+        LocalError: for a bundle that the wire cannot hold, such as one with a name that is too long.
+    """
+    skeleton = bundle.graph.skeleton
+    welcome = m.Welcome(
+        version=m.PROTOCOL_VERSION,
+        tick=tick,
+        tick_rate=m.TICK_RATE,
+        frame_rate=frame_rate,
+        joints=skeleton.names,
+        parents=tuple(skeleton.parents.tolist()),
+        offsets=tuple(map(tuple, skeleton.offsets.tolist())),
+        ends=tuple(map(tuple, skeleton.ends.tolist())),
+        behaviours=behaviours,
+        clips=bundle.graph.clips,
+        digest=bundle.digest,
+        attribution=bundle.attribution,
+        idle_seconds=limits.idle_seconds,
+        characters=limits.session_characters,
+        message_bytes=CLIENT_MESSAGE_BYTES,
+        messages_per_tick=limits.messages_per_tick,
+    )
+    encode_checked(welcome)
+    return welcome

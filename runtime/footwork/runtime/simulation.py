@@ -1,0 +1,154 @@
+"""The one place where commands and the world meet: orders -> controller -> World.step -> pose frames.
+
+No socket, no session, no clock: the server drives it tick by tick, and so does whatever runs without one.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.controllers.command import Command, Vocabulary
+from footwork.controllers.orders import Orders
+from footwork.controllers.steering import SteeringController
+from footwork.errors import InputError
+from footwork.motion.bundle import Bundle
+from footwork.motion.task import ONE_SHOT
+from footwork.runtime.world import World
+
+STEERING = "steering"
+_IDLE = "stop"
+
+
+@dataclass(frozen=True, eq=False)
+class PoseFrames:
+    """What is shown of every slot at one moment; rows of slots that hold no character mean nothing.
+
+    The arrays are the simulation's own buffers, which the next call writes over.
+
+    Args:
+        root: place of joint 0 in the world, metres.  # (capacity, 3) float32
+        rotations: local rotations xyzw, joint 0 in the world.  # (capacity, J, 4) float32
+        facing: yaw at the tick's moment, radians.  # (capacity,)
+        behaviour: index into ``Simulation.behaviours``, -1 for none of them.  # (capacity,)
+        clip: index into the graph's clips.  # (capacity,)
+        source_frame: frame of that clip at 30 Hz.  # (capacity,)
+        transition: whether the edge last taken leaves the captured order.  # (capacity,) bool
+    """
+
+    root: NDArray[np.float32]
+    rotations: NDArray[np.float32]
+    facing: NDArray[np.float64]
+    behaviour: NDArray[np.int32]
+    clip: NDArray[np.int32]
+    source_frame: NDArray[np.int32]
+    transition: NDArray[np.bool_]
+
+
+class Simulation:
+    """Characters that are steered by commands through one bundle.
+
+    Args:
+        bundle: the graph and its "steering" table.
+        capacity: how many characters there is room for.
+        inertialise: whether transitions are smoothed.
+
+    Attributes:
+        tick: the tick last made, from 0.
+        behaviours: what commands may ask for: those that some frame shows.
+        vocabulary: reads commands.
+
+    Raises:
+        InputError: for a bundle without a converged steering table or without a frame of any behaviour.
+    """
+
+    def __init__(self, bundle: Bundle, capacity: int, *, inertialise: bool = True) -> None:
+        graph = bundle.graph
+        self.bundle = bundle
+        self.tick = 0
+        self.world = World(graph, capacity, inertialise=inertialise)
+        self._controller = SteeringController(graph, bundle.table(STEERING))
+        self.behaviours = self._controller.present
+        if not self.behaviours:
+            raise InputError("no frame shows any behaviour, expected at least one", graph.where)
+        self.vocabulary = Vocabulary(graph.behaviours, self.behaviours)
+        self._orders = Orders(capacity)
+        self._start = {name: self._controller.start_node(name) for name in self.behaviours}
+        self._shown_as = self._numbering()
+        self._edges = np.zeros(capacity, dtype=np.int32)
+        self._who = np.zeros(0, dtype=np.intp)
+        self._warm()
+
+    def _numbering(self) -> NDArray[np.int32]:
+        """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
+        graph = self.bundle.graph
+        numbers = [self.behaviours.index(name) if name in self.behaviours else -1 for name in graph.behaviours]
+        return np.array([*numbers, -1], dtype=np.int32)
+
+    def _warm(self) -> None:
+        """Compile, or load, every kernel before the first tick."""
+        slot = self.spawn(0.0, 0.0, 0.0)
+        self.step()
+        self.show(0.5)
+        self.remove(slot)
+        self.tick = 0
+
+    @property
+    def full(self) -> bool:
+        """Whether there is no room for another character."""
+        return len(self._who) == self.world.capacity
+
+    def spawn(self, x: float, z: float, yaw: float, behaviour: str = "") -> int:
+        """Put a character into the world, doing ``behaviour`` or else standing; returns its slot.
+
+        Raises:
+            UnknownBehaviour: for a behaviour that the bundle lacks.
+            WorldFull: where there is no room.
+        """
+        if behaviour:
+            self.vocabulary.index(behaviour)
+        idle = _IDLE if _IDLE in self.behaviours else self.behaviours[0]
+        start = behaviour or idle
+        slot = self.world.spawn(self._start[start], x, z, yaw)
+        self._orders.begin(slot, yaw, self.vocabulary.index(idle if start in ONE_SHOT else start))
+        self._who = np.flatnonzero(self.world.active)
+        return slot
+
+    def remove(self, slot: int) -> None:
+        """Take a character out of the world."""
+        self.world.remove(slot)
+        self._who = np.flatnonzero(self.world.active)
+
+    def correct(self, slot: int, x: float, z: float, yaw: float) -> None:
+        """Move a character's root, metres and radians; its motion goes on from there."""
+        self.world.correct(slot, x, z, yaw)
+
+    def give(self, slot: int, command: Command) -> None:
+        """Put a command into force, from the next tick on."""
+        shown = self.bundle.graph.behaviour[self.world.node[slot]]
+        self._orders.give(slot, command, int(shown))
+
+    def step(self) -> None:
+        """Make one tick: choose an edge for every character and take it."""
+        world, who = self.world, self._who
+        asked = self._orders.at_tick(self.bundle.graph.behaviour[world.node])
+        chosen = np.empty(len(who), dtype=np.int32)
+        facing, heading = world.place[who, 2], self._orders.heading[who]
+        self._controller.choose(world.node[who], facing, heading, asked[who], chosen)
+        self._edges[who] = chosen
+        world.step(self._edges)
+        self.tick += 1
+
+    def show(self, fraction: float) -> PoseFrames:
+        """What is shown at a fraction of the tick in (0, 1]; 1 is its own moment."""
+        graph, node = self.bundle.graph, self.world.node
+        root, rotations = self.world.show(fraction)
+        return PoseFrames(
+            root=root,
+            rotations=rotations,
+            facing=self.world.place[:, 2],
+            behaviour=self._shown_as[graph.behaviour[node]],
+            clip=graph.clip[node],
+            source_frame=graph.frame[node],
+            transition=~graph.natural[self.world.edge],
+        )

@@ -1,0 +1,24 @@
+"""A small bundle made by hand, quick to build and to serve."""
+
+import numpy as np
+
+from footwork.motion.bundle import Bundle, sealed
+from footwork.motion.table import PolicyTable
+from footwork.motion.task import SteeringTask
+from toy_graphs import BEHAVIOURS, graph_of, wandering_clip
+
+FRAMES = 24
+SHOWN = ("stop", "walk", "jump")
+"""What its frames show: it has no run."""
+
+
+def toy_bundle() -> Bundle:
+    """Three clips, one of them stopping, one walking, one jumping, with a way from each to each every few frames."""
+    clips = [wandering_clip(seed, FRAMES) for seed in range(len(SHOWN))]
+    ways = [FRAMES * a + i for a in range(3) for i in (*range(2, FRAMES - 1, 4), FRAMES - 1)]
+    jumps = [(node, FRAMES * clip) for node in ways for clip in range(3)]
+    behaviour = np.repeat([BEHAVIOURS.index(name) for name in SHOWN], FRAMES)
+    graph = graph_of(clips, jumps, behaviour)
+    values = np.zeros((graph.node_count, len(BEHAVIOURS), SteeringTask().heading_bins), dtype=np.float32)
+    table = PolicyTable(SteeringTask(behaviours=BEHAVIOURS), values, residual=0.0, sweeps=1, converged=True)
+    return sealed(Bundle(graph, {"steering": table}, attribution=("toy motion, nobody's",)))
