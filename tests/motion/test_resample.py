@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation, Slerp
 from footwork.errors import InputError
 from footwork.motion.clip import Clip
 from footwork.motion.quaternion import normalise
-from footwork.motion.resample import resample
+from footwork.motion.resample import resample, whole_steps
 from footwork.motion.skeleton import Skeleton
 
 BODY = Skeleton(
@@ -75,3 +75,15 @@ def test_own_rate_returns_the_clip_itself():
 def test_rates_that_are_no_rates_are_refused(fps: float):
     with pytest.raises(InputError, match="random"):
         resample(clip_at(120.0, 50), fps)
+
+
+@given(st.integers(1, 60), st.sampled_from([24.0, 25.0, 100.0, 120.0]), st.integers(0, 59))
+def test_a_source_frame_can_be_kept_with_what_lies_before_it(frames: int, fps: float, through: int):
+    through %= frames
+    clip = clip_at(fps, frames)
+    whole, kept = resample(clip, 30.0, through), whole_steps(through, fps, 30.0)
+    np.testing.assert_array_equal(whole.rotations[kept], clip.rotations[through])
+    rest = resample(clip.cut(through, frames), 30.0)
+    np.testing.assert_allclose(whole.root_position[kept:], rest.root_position, atol=1e-6)
+    before = np.interp((through - np.arange(kept, 0, -1) * fps / 30.0), np.arange(frames), clip.root_position[:, 1])
+    np.testing.assert_allclose(whole.root_position[:kept, 1], before, atol=1e-6)
