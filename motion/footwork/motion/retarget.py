@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion import quaternion
-from footwork.motion.body import BALL_HEIGHT, NAMES, PARENTS, default_body
+from footwork.motion.body import NAMES, PARENTS, default_body
 from footwork.motion.clip import Clip
-from footwork.motion.contacts import GROUND_PERCENTILE, detect_contacts, point_contacts
+from footwork.motion.contacts import detect_contacts
+from footwork.motion.floor_plane import level_floor
+from footwork.motion.grounding import lay_feet
 from footwork.motion.ik import leg, reach
 from footwork.motion.kinematics import forward, local_rotations
 from footwork.motion.name_table import NameTable, table_for
@@ -35,12 +37,10 @@ _AIMS = {"spine": "chest", "chest": "neck", "neck": "head"} | {
     )
 }
 _AIMED = {NAMES.index(bone): NAMES.index(tip) for bone, tip in _AIMS.items()}
-_THIGHS, _SHANKS, _ANKLES, _BALLS = (
-    np.array([NAMES.index(f"{side}_{part}") for side in _SIDES]) for part in ("thigh", "shank", "foot", "toes")
+_THIGHS, _SHANKS, _ANKLES = (
+    np.array([NAMES.index(f"{side}_{part}") for side in _SIDES]) for part in ("thigh", "shank", "foot")
 )
 _SPINE, _CHEST = NAMES.index("spine"), NAMES.index("chest")
-# Captured feet press through the floor when they roll over the toes or crouch; deeper than this they are raised.
-_DEEPEST, _SOFTLY = 0.01, 0.005  # metres
 _SHORTEST = 1e-6  # of the unit of the capture: below it a bone has no direction
 
 
@@ -72,11 +72,11 @@ def onto_common_body(clip: Clip, body: Skeleton, table: NameTable) -> Clip:
     Raises:
         InputError: where the clip's skeleton lacks a joint of the table or its legs have no length.
     """
-    places, turns = _scaled_pose(clip, body, table)
+    places, turns = level_floor(body, *_scaled_pose(clip, body, table), clip.fps)
     turns = _lean_spine(body, places, _aimed(body, places, turns))
-    places[..., 1] += floor_lift(body, places, turns, clip.fps)
     at = _chain(body, places, turns)
-    targets = _ankle_targets(body, places, turns, at)
+    ankles, turns = lay_feet(body, places, turns)
+    targets = _ankle_targets(body, places, ankles, at[:, _THIGHS])
     for foot, side in enumerate(_SIDES):
         limb = leg(body, side)
         turns[:, limb.upper], turns[:, limb.lower] = reach(at, turns, limb, targets[:, foot])
@@ -91,39 +91,13 @@ def captured_places(clip: Clip, body: Skeleton, table: NameTable) -> NDArray[np.
     Returns:
         places of the common body's joints as captured, metres.  # (F, J, 3)
     """
-    places, turns = _scaled_pose(clip, body, table)
-    places[..., 1] += floor_lift(body, places, turns, clip.fps)
-    return places
-
-
-def floor_lift(body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64], fps: float) -> float:
-    """How far a clip must be raised for its standing feet to be on y = 0, metres.
-
-    The median height of each foot while it stands, mean of the two feet: capture that stands one foot a centimetre
-    under the other is not bent straight. If neither foot ever stands, the 2nd percentile of the lower one counts.
-    """
-    heights = _foot_heights(body, places, turns)
-    ankles, balls = places[:, _ANKLES], _ball_places(body, places, turns)
-    stands = point_contacts(np.stack([ankles, balls], axis=2), fps).any(axis=-1)  # (F, feet)
-    levels = [np.median(heights[on, foot]) for foot, on in enumerate(stands.T.astype(bool)) if on.any()]
-    return -float(np.mean(levels) if levels else np.percentile(heights.min(axis=1), GROUND_PERCENTILE))
-
-
-def _ball_places(body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where the body's balls are while its ankles are at the captured ones.  # (F, feet, 3)"""
-    return places[:, _ANKLES] + quaternion.rotate(turns[:, _ANKLES], body.offsets[_BALLS])
-
-
-def _foot_heights(body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Height of each foot above the floor: of its ankle or its ball, each above its own rest.  # (F, feet)"""
-    ankles = places[:, _ANKLES, 1] - (BALL_HEIGHT - body.offsets[_BALLS, 1])
-    return np.minimum(ankles, _ball_places(body, places, turns)[..., 1] - BALL_HEIGHT)
+    return level_floor(body, *_scaled_pose(clip, body, table), clip.fps)[0]
 
 
 def _ankle_targets(
-    body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64], at: NDArray[np.float64]
+    body: Skeleton, places: NDArray[np.float64], ankles: NDArray[np.float64], hips: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Where the body's ankles shall be: at the captured ones, no deeper than ``_DEEPEST``.  # (F, feet, 3)
+    """Where the body's ankles shall be, given where the captured ones were laid and its hips are.  # (F, feet, 3)
 
     The way from hip to ankle is stretched by the ratio of the body's leg to the captured leg of that side. Legs of
     one person differ by millimetres, which hardly move an ankle but bend a straight knee by centimetres.
@@ -131,10 +105,7 @@ def _ankle_targets(
     captured = np.linalg.norm(places[:, _SHANKS] - places[:, _THIGHS], axis=-1)
     captured = (captured + np.linalg.norm(places[:, _ANKLES] - places[:, _SHANKS], axis=-1)).mean(axis=0)
     stretch = np.linalg.norm(body.offsets[[_SHANKS, _ANKLES]], axis=-1).sum(axis=0) / captured
-    sunk = -_DEEPEST - _foot_heights(body, places, turns)
-    raised = places[:, _ANKLES]
-    raised[..., 1] += 0.5 * (sunk + np.sqrt(sunk**2 + _SOFTLY**2))  # max(sunk, 0) without its corner
-    return at[:, _THIGHS] + stretch[:, None] * (raised - at[:, _THIGHS])
+    return hips + stretch[:, None] * (ankles - hips)
 
 
 def _scaled_pose(clip: Clip, body: Skeleton, table: NameTable) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
