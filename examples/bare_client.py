@@ -1,6 +1,6 @@
 """A client with nothing of footwork's: python examples/bare_client.py [ADDRESS]
 
-Needs only pyzmq and msgpack. Walks ahead for two seconds, turns back for two, and prints how the character does.
+Needs only pyzmq and msgpack. Walks ahead for a second, turns back for another, and prints how the character does.
 protocol/SPEC.md tells what the fields mean.
 """
 
@@ -76,8 +76,8 @@ def main(address: str = "tcp://127.0.0.1:5555") -> None:
     welcome = receive(socket)
     print(f"{len(welcome['joints'])} joints, behaviours {', '.join(welcome['behaviours'])}")
     send(socket, "spawn", sequence=1, character=0)
-    sequence = walk(socket, 0.0, 2.0, 1)
-    walk(socket, math.pi, 2.0, sequence)
+    sequence = walk(socket, 0.0, 1.0, 1)
+    walk(socket, math.pi, 1.0, sequence)
     send(socket, "bye")
     socket.close()
 

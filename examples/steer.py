@@ -1,4 +1,4 @@
-"""Steers a character to the left and to the right for six seconds: python examples/steer.py [ADDRESS]
+"""Steers a character to the left and to the right for three seconds: python examples/steer.py [ADDRESS]
 
 Start a server first: footwork serve BUNDLE
 """
@@ -9,7 +9,7 @@ import sys
 from footwork.protocol.client import DEFAULT_ADDRESS, Client
 from footwork.protocol.pose_arrays import root_of
 
-TICKS = 180
+TICKS = 90
 
 
 def main(address: str = DEFAULT_ADDRESS) -> None:

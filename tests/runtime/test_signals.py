@@ -1,0 +1,24 @@
+"""SIGINT and SIGTERM end a server that runs on the main thread."""
+
+import os
+import signal
+import threading
+
+import pytest
+
+from footwork.runtime.server import Server
+from footwork.runtime.signals import stopped_by_signals
+from toy_bundle import toy_bundle
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_server_ends_by_itself_and_the_handlers_come_back(number):
+    before = signal.getsignal(number)
+    server = Server(toy_bundle(), bind="tcp://127.0.0.1:0")
+    timer = threading.Timer(0.2, os.kill, (os.getpid(), number))
+    timer.start()
+    with stopped_by_signals(server):
+        server.run(until=lambda: server.ticks > 300)
+    assert 0 < server.ticks < 300
+    assert server.wait(0.0)
+    assert signal.getsignal(number) is before
