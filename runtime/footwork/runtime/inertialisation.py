@@ -15,9 +15,12 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.runtime.motion_rows import SPIN, VELOCITY
 from footwork.runtime.rotation_kernels import (
     along,
     before,
+    column3,
+    column4,
     exp,
     log,
     multiply,
@@ -26,8 +29,6 @@ from footwork.runtime.rotation_kernels import (
     rotate,
     spin,
     turned,
-    wide3,
-    wide4,
 )
 
 TICK = 1.0 / 30.0
@@ -78,31 +79,34 @@ def _joint_offset(offset, velocity, old, old_spin, new, new_spin):
 
 
 @numba.njit(cache=True, nogil=True)
-def decay(active: NDArray, offsets: NDArray, velocities: NDArray, roots: NDArray, seconds: float, halflife: float):
+def decay(active: NDArray, offsets: NDArray, roots: NDArray, seconds: float, halflife: float) -> None:
     """Let the offsets of all active characters decay by ``seconds``, in place.
 
     Args:
         active: which rows are characters.  # (C,)
-        offsets: of the joints, rad.  # (C, J, 3)
-        velocities: of those, rad/s.  # (C, J, 3)
+        offsets: ``motion_rows.offset_rows`` of the joints, rad and rad/s.  # (C, 6, padded J)
         roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
         seconds: how long.
         halflife: of the spring, s.
     """
     a, b, c, d = decay_weights(seconds, halflife)
-    fa, fb, fc, fd = np.float32(a), np.float32(b), np.float32(c), np.float32(d)
+    narrow = np.float32(a), np.float32(b), np.float32(c), np.float32(d)
     for who in range(active.shape[0]):
         if not active[who]:
             continue
+        _decay_row(roots[who, 0], roots[who, 1], (a, b, c, d))
         for k in range(3):
-            x, v = roots[who, 0, k], roots[who, 1, k]
-            roots[who, 0, k] = a * x + b * v
-            roots[who, 1, k] = c * x + d * v
-        for joint in range(offsets.shape[1]):
-            for k in range(3):
-                x, v = offsets[who, joint, k], velocities[who, joint, k]
-                offsets[who, joint, k] = fa * x + fb * v
-                velocities[who, joint, k] = fc * x + fd * v
+            _decay_row(offsets[who, k], offsets[who, k + VELOCITY], narrow)
+
+
+@numba.njit(cache=True, nogil=True)
+def _decay_row(offset, velocity, weights):
+    """The spring's step for a row of numbers and their velocities, in place."""
+    a, b, c, d = weights
+    for place in range(offset.shape[0]):
+        x, v = offset[place], velocity[place]
+        offset[place] = a * x + b * v
+        velocity[place] = c * x + d * v
 
 
 @numba.njit(cache=True, nogil=True)
@@ -119,21 +123,22 @@ def _jump_root(root, position, velocity, place, cosine, sine, sign):
 
 
 @numba.njit(cache=True, nogil=True)
-def _jump_joints(offsets, velocities, old, old_spins, new, new_spins, old_yaw, new_yaw):
-    """Offsets (J, 3) and velocities (J, 3) of one character's joints over the new motion, in place."""
-    for joint in range(offsets.shape[0]):
-        old_turn, old_spin = wide4(old[joint]), wide3(old_spins[joint])
-        new_turn, new_spin = before(new_spins[joint], new[joint], TICK), wide3(new_spins[joint])
+def _jump_joints(offsets, old, new, old_yaw, new_yaw):
+    """Offset rows (6, padded J) of one character over the new node's motion instead of the old one's, in place."""
+    for joint in range(offsets.shape[1]):
+        old_turn, old_spin = column4(old, 0, joint), column3(old, SPIN, joint)
+        new_spin = column3(new, SPIN, joint)
+        new_turn = before(new_spin, column4(new, 0, joint), TICK)
         if joint == 0:
             old_turn = planar(old_turn, math.cos(0.5 * old_yaw), math.sin(0.5 * old_yaw))
             new_turn = planar(new_turn, math.cos(0.5 * new_yaw), math.sin(0.5 * new_yaw))
             old_spin = turned(math.cos(old_yaw), math.sin(old_yaw), old_spin)
             new_spin = turned(math.cos(new_yaw), math.sin(new_yaw), new_spin)
-        x, v = wide3(offsets[joint]), wide3(velocities[joint])
+        x, v = column3(offsets, 0, joint), column3(offsets, VELOCITY, joint)
         x, v = _joint_offset(x, v, old_turn, old_spin, new_turn, new_spin)
         for k in range(3):
-            offsets[joint, k] = x[k]
-            velocities[joint, k] = v[k]
+            offsets[k, joint] = x[k]
+            offsets[k + VELOCITY, joint] = v[k]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -145,10 +150,8 @@ def jump(
     new_place: NDArray,
     root_position: NDArray,
     root_velocity: NDArray,
-    rotations: NDArray,
-    angular_velocity: NDArray,
+    nodes: NDArray,
     offsets: NDArray,
-    velocities: NDArray,
     roots: NDArray,
 ) -> None:
     """Take a transition's jump into a character's offsets, in place.
@@ -163,10 +166,8 @@ def jump(
         new_place: its planar place there.  # (3,)
         root_position: of the graph.  # (N, 3)
         root_velocity: of the graph.  # (N, 3)
-        rotations: of the graph.  # (N, J, 4)
-        angular_velocity: of the graph.  # (N, J, 3)
-        offsets: of the joints at the end of the last tick, rad.  # (C, J, 3)
-        velocities: of those, rad/s.  # (C, J, 3)
+        nodes: ``motion_rows.node_rows`` of the graph.  # (N, 7, padded J)
+        offsets: ``motion_rows.offset_rows`` of the joints at the end of the last tick, rad and rad/s.
         roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
     """
     cosine, sine = math.cos(old_place[2]), math.sin(old_place[2])
@@ -178,13 +179,4 @@ def jump(
     root[0, 0] += TICK * x
     root[0, 1] += TICK * y
     root[0, 2] += TICK * z
-    _jump_joints(
-        offsets[who],
-        velocities[who],
-        rotations[old_node],
-        angular_velocity[old_node],
-        rotations[new_node],
-        angular_velocity[new_node],
-        old_place[2],
-        new_place[2],
-    )
+    _jump_joints(offsets[who], nodes[old_node], nodes[new_node], old_place[2], new_place[2])

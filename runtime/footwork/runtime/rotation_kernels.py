@@ -111,18 +111,17 @@ def planar(q, cosine, sine):
 
 @numba.njit(cache=True, nogil=True)
 def before(spin, q, seconds):
-    """The rotation q (4,) turning at ``spin`` (3,), as it was ``seconds`` before; in float64."""
-    turn = exp(-seconds * spin[0], -seconds * spin[1], -seconds * spin[2])
-    return multiply(turn, wide4(q))
+    """The rotation q turning at ``spin``, as it was ``seconds`` before."""
+    return multiply(exp(-seconds * spin[0], -seconds * spin[1], -seconds * spin[2]), q)
 
 
 @numba.njit(cache=True, nogil=True)
-def wide3(values):
-    """The three numbers of an array as a tuple in float64."""
-    return float(values[0]), float(values[1]), float(values[2])
+def column3(rows, first, place):
+    """Three numbers of one column from row ``first`` on, as a tuple in float64."""
+    return float(rows[first, place]), float(rows[first + 1, place]), float(rows[first + 2, place])
 
 
 @numba.njit(cache=True, nogil=True)
-def wide4(values):
-    """The four numbers of an array as a tuple in float64."""
-    return float(values[0]), float(values[1]), float(values[2]), float(values[3])
+def column4(rows, first, place):
+    """Four numbers of one column from row ``first`` on, as a tuple in float64."""
+    return *column3(rows, first, place), float(rows[first + 3, place])

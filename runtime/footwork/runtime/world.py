@@ -10,6 +10,7 @@ from footwork.errors import FootworkError
 from footwork.motion.graph import MotionGraph
 from footwork.runtime import posing
 from footwork.runtime.inertialisation import TICK, decay, jump
+from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
 from footwork.runtime.rotation_kernels import turned
 
 NO_EDGE = -1
@@ -83,10 +84,8 @@ def take_jumps(
     place: NDArray,
     root_position: NDArray,
     root_velocity: NDArray,
-    rotations: NDArray,
-    angular_velocity: NDArray,
+    nodes: NDArray,
     offsets: NDArray,
-    velocities: NDArray,
     roots: NDArray,
 ) -> None:
     """``inertialisation.jump`` for all active characters whose edge is a transition; see there for the arrays."""
@@ -100,10 +99,8 @@ def take_jumps(
                 place[who],
                 root_position,
                 root_velocity,
-                rotations,
-                angular_velocity,
+                nodes,
                 offsets,
-                velocities,
                 roots,
             )
 
@@ -144,14 +141,13 @@ class World:
         self.node = np.zeros(capacity, dtype=np.int32)
         self.place = np.zeros((capacity, 3))
         self.edge = np.full(capacity, NO_EDGE, dtype=np.int32)
-        self._offsets = np.zeros((capacity, joints, 3), dtype=np.float32)
-        self._velocities = np.zeros((capacity, joints, 3), dtype=np.float32)
+        self._offsets = offset_rows(capacity, joints)
         self._roots = np.zeros((capacity, 2, 3))
         self._old_node = np.zeros_like(self.node)
         self._old_place = np.zeros_like(self.place)
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
         self._shown_rotations = np.zeros((capacity, joints, 4), dtype=np.float32)
-        self._motion = (graph.root_position, graph.root_velocity, graph.rotations, graph.angular_velocity)
+        self._motion = (graph.root_position, graph.root_velocity, node_rows(graph))
 
     def spawn(self, node: int, x: float, z: float, yaw: float) -> int:
         """Put a new character on a node at a planar place; its slot is the lowest free one.
@@ -170,8 +166,7 @@ class World:
         self.node[slot] = node
         self.edge[slot] = NO_EDGE
         self.place[slot] = x, z, within_half_turn(yaw)
-        for state in (self._offsets, self._velocities, self._roots):
-            state[slot] = 0.0
+        self._offsets[slot] = self._roots[slot] = 0.0
         return slot
 
     def remove(self, slot: int) -> None:
@@ -196,7 +191,8 @@ class World:
         turn = yaw - self.place[slot, 2]
         self.place[slot] = x, z, within_half_turn(yaw)
         # What these hold is given in the world: the root's offset and velocity, and those of joint 0.
-        for vectors in (*self._roots[slot], self._offsets[slot, 0], self._velocities[slot, 0]):
+        joint = self._offsets[slot, :, 0]
+        for vectors in (*self._roots[slot], joint[:VELOCITY], joint[VELOCITY:]):
             vectors[:] = turned(math.cos(turn), math.sin(turn), vectors)
 
     def step(self, edges: NDArray[np.int32]) -> None:
@@ -221,7 +217,7 @@ class World:
 
     def _carry_over(self, edges: NDArray[np.int32]) -> None:
         """Let the offsets decay over the tick that ended, then take the jumps of transitions into them."""
-        decay(self.active, self._offsets, self._velocities, self._roots, TICK, self.halflife)
+        decay(self.active, self._offsets, self._roots, TICK, self.halflife)
         take_jumps(
             self.active,
             edges,
@@ -232,7 +228,6 @@ class World:
             self.place,
             *self._motion,
             self._offsets,
-            self._velocities,
             self._roots,
         )
 
@@ -256,7 +251,6 @@ class World:
             self.halflife,
             *self._motion,
             self._offsets,
-            self._velocities,
             self._roots,
             self._shown_root,
             self._shown_rotations,
