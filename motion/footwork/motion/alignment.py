@@ -29,18 +29,28 @@ def align(first: ArrayLike, second: ArrayLike, weights: ArrayLike) -> Alignment:
         second: points of the second clouds.  # (..., P, 3)
         weights: of the points, not negative, sum above zero.  # (P,)
     """
-    p, q, w = (np.asarray(values, dtype=np.float64) for values in (first, second, weights))
-    ground = np.array([1.0, 0.0, 1.0])
-    p_mean = np.einsum("p,...pc->...c", w, p) / w.sum() * ground
-    q_mean = np.einsum("p,...pc->...c", w, q) / w.sum() * ground
-    p, q = p - p_mean[..., None, :], q - q_mean[..., None, :]
-    cross = np.einsum("p,...pc,...pd->...cd", w, p, q)
-    sine, cosine = cross[..., 0, 2] - cross[..., 2, 0], cross[..., 0, 0] + cross[..., 2, 2]
+    w = np.asarray(weights, dtype=np.float64)
+    (px, py, pz), p_mean = _centred(first, w)
+    (qx, qy, qz), q_mean = _centred(second, w)
+    wx, wy, wz = px * w, py * w, pz * w
+    sine, cosine = _dot(wx, qz) - _dot(wz, qx), _dot(wx, qx) + _dot(wz, qz)
     theta = np.arctan2(sine, cosine)
-    own = np.einsum("p,...pc->...", w, p * p) + np.einsum("p,...pc->...", w, q * q)
-    square = own - 2.0 * cross[..., 1, 1] - 2.0 * np.hypot(sine, cosine)
-    turned_x, turned_z = turn(q_mean[..., 0], q_mean[..., 2], theta)
-    return Alignment(theta, p_mean[..., 0] - turned_x, p_mean[..., 2] - turned_z, np.maximum(square, 0.0))
+    own = _dot(wx, px) + _dot(wy, py) + _dot(wz, pz) + (qx * qx + qy * qy + qz * qz) @ w
+    square = own - 2.0 * _dot(wy, qy) - 2.0 * np.hypot(sine, cosine)
+    turned_x, turned_z = turn(*q_mean, theta)
+    return Alignment(theta, p_mean[0] - turned_x, p_mean[1] - turned_z, np.maximum(square, 0.0))
+
+
+def _centred(points: ArrayLike, weights: NDArray) -> tuple[NDArray, tuple[NDArray, NDArray]]:
+    """x, y, z (3, ..., P) with x and z about their weighted means, and those means (...)."""
+    x, y, z = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
+    total = weights.sum()
+    mean_x, mean_z = x @ weights / total, z @ weights / total
+    return np.stack([x - mean_x[..., None], y, z - mean_z[..., None]]), (mean_x, mean_z)
+
+
+def _dot(a: NDArray, b: NDArray) -> NDArray[np.float64]:
+    return np.einsum("...p,...p->...", a, b)
 
 
 def turn(x: ArrayLike, z: ArrayLike, yaw: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

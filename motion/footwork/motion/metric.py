@@ -15,7 +15,7 @@ from footwork.motion.kinematics import clip_places
 from footwork.motion.window import LENGTH, window_frames, window_weights
 
 UNIT = 0.05644  # metres: s = 1 is a root mean square distance of this much (papers.md 2)
-_PAIRS_AT_ONCE = 4096
+_PAIRS_AT_ONCE = 512
 
 
 class Metric(Protocol):
