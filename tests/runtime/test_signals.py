@@ -2,7 +2,6 @@
 
 import os
 import signal
-import threading
 
 import pytest
 
@@ -15,10 +14,14 @@ from toy_bundle import toy_bundle
 def test_the_server_ends_by_itself_and_the_handlers_come_back(number):
     before = signal.getsignal(number)
     server = Server(toy_bundle(), bind="tcp://127.0.0.1:0")
-    timer = threading.Timer(0.2, os.kill, (os.getpid(), number))
-    timer.start()
+
+    def asked_to_end_at_the_third_tick() -> bool:
+        if server.ticks == 3:
+            os.kill(os.getpid(), number)
+        return server.ticks > 30
+
     with stopped_by_signals(server):
-        server.run(until=lambda: server.ticks > 300)
-    assert 0 < server.ticks < 300
+        server.run(until=asked_to_end_at_the_third_tick)
+    assert server.ticks == 3
     assert server.wait(0.0)
     assert signal.getsignal(number) is before
