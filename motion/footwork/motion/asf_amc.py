@@ -24,10 +24,10 @@ CMU_RATE = 120.0
 
 @dataclass
 class _Track:
-    """What the file says of one bone, a row a frame."""
+    """What the file says of one bone: its numbers, a line a frame."""
 
     lines: list[int] = field(default_factory=list)
-    rows: list[list[bytes]] = field(default_factory=list)
+    texts: list[bytes] = field(default_factory=list)
 
 
 def read_amc(path: str | Path, asf: AsfSkeleton, fps: float = CMU_RATE) -> Clip:
@@ -64,12 +64,13 @@ def _split(path: str | Path, lines: list[bytes], asf: AsfSkeleton) -> tuple[list
     known = {name.encode(): _Track() for name in asf.skeleton.names}
     starts: list[int] = []
     for line, text in enumerate(lines, start=1):
-        row = text.split()
-        if not row or row[0][:1] in (b"#", b":"):
-            _check_flag(row, asf, f"{path}:{line}")
-        elif (track := known.get(row[0])) is not None and starts:
+        row = text.split(None, 1)
+        track = known.get(row[0]) if row else None
+        if track is not None and starts:
             track.lines.append(line)
-            track.rows.append(row[1:])
+            track.texts.append(row[1] if len(row) == 2 else b"")
+        elif not row or row[0][:1] in (b"#", b":"):
+            _check_flag(row, asf, f"{path}:{line}")
         else:
             _check_frame_number(row, len(starts) + 1, f"{path}:{line}")
             starts.append(line)
@@ -96,7 +97,7 @@ def _check_frame_number(row: list[bytes], wanted: int, where: str) -> None:
 
 def _values(path: str | Path, name: str, width: int, track: _Track, starts: list[int]) -> NDArray[np.float64]:
     """One bone's numbers  # (F, width); a bone without degrees of freedom needs no lines."""
-    if width == 0 and not track.rows:
+    if width == 0 and not track.texts:
         return np.empty((len(starts), 0))
     lines = np.array(track.lines, dtype=np.int64)
     # The i-th row of the bone must lie in frame i: count the rows of each frame.
@@ -108,4 +109,4 @@ def _values(path: str | Path, name: str, width: int, track: _Track, starts: list
             f"frame {frame + 1} has {counts[frame]} lines for bone {name!r}, expected 1: truncated?",
             f"{path}:{starts[frame]}",
         )
-    return number_rows(track.rows, track.lines, width, path)
+    return number_rows(track.texts, track.lines, width, path)

@@ -51,7 +51,7 @@ def read_bvh(path: str | Path, unit: float = CENTIMETRE) -> Clip:
 
 def _read_motion(path: str | Path, lines: list[bytes], start: int, width: int) -> tuple[float, NDArray[np.float64]]:
     """Frames a second, and every frame's numbers (F, width); ``start`` is the index of the MOTION line."""
-    body = [(line, text.split()) for line, text in enumerate(lines[start + 1 :], start=start + 2) if text.strip()]
+    body = [(line, text) for line, text in enumerate(lines[start + 1 :], start=start + 2) if text.strip()]
     if len(body) < 2:
         raise InputError("ends inside the MOTION header", f"{path}:{len(lines)}")
     frames_line, count = _header(path, *body[0], [b"Frames:"])
@@ -62,10 +62,11 @@ def _read_motion(path: str | Path, lines: list[bytes], start: int, width: int) -
         raise InputError("no frames, expected at least one", f"{path}:{frames_line}")
     if len(body) - 2 != frames:
         raise InputError(f"{len(body) - 2} frames, but line {frames_line} says {frames}", f"{path}:{body[-1][0]}")
-    return fps, number_rows([row for _, row in body[2:]], [line for line, _ in body[2:]], width, path)
+    return fps, number_rows([text for _, text in body[2:]], [line for line, _ in body[2:]], width, path)
 
 
-def _header(path: str | Path, line: int, row: list[bytes], key: list[bytes]) -> tuple[int, bytes]:
+def _header(path: str | Path, line: int, text: bytes, key: list[bytes]) -> tuple[int, bytes]:
+    row = text.split()
     if len(row) != len(key) + 1 or row[:-1] != key:
         raise InputError(f"expected '{b' '.join(key).decode()} NUMBER'", f"{path}:{line}")
     return line, row[-1]

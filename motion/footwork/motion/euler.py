@@ -13,11 +13,20 @@ def from_euler(axes: str, angles: ArrayLike) -> NDArray[np.float64]:
     ``"ZXY"`` is Rz Rx Ry, as a BVH joint with the channels Zrotation Xrotation Yrotation means it; no axes at all
     give the identity.
     """
-    angles = np.asarray(angles, dtype=np.float64)
-    if not axes:
-        return np.broadcast_to([0.0, 0.0, 0.0, 1.0], (*angles.shape[:-1], 4)).copy()
-    flat = angles.reshape(-1, len(axes))
-    return Rotation.from_euler(axes, flat).as_quat().reshape(*angles.shape[:-1], 4)
+    half = 0.5 * np.asarray(angles, dtype=np.float64)
+    q = np.zeros((4, *half.shape[:-1]))
+    q[3] = 1.0
+    for index, axis in enumerate(axes):
+        sine, cosine = np.sin(half[..., index]), np.cos(half[..., index])
+        # The product q (sine e_i, cosine), with i, j, k in the order of a right-handed frame.
+        i, j, k = ((("XYZ".index(axis) + step) % 3) for step in range(3))
+        q[[i, j, k, 3]] = (
+            q[i] * cosine + q[3] * sine,
+            q[j] * cosine + q[k] * sine,
+            q[k] * cosine - q[j] * sine,
+            q[3] * cosine - q[i] * sine,
+        )
+    return np.ascontiguousarray(np.moveaxis(q, 0, -1))
 
 
 def to_euler(axes: str, rotations: ArrayLike) -> NDArray[np.float64]:

@@ -12,17 +12,15 @@ IDENTITY.flags.writeable = False
 
 def multiply(a: ArrayLike, b: ArrayLike) -> NDArray[np.float64]:
     """The Hamilton product ``a b``: the rotation ``b`` followed by ``a``.  # (..., 4)"""
-    ax, ay, az, aw = np.moveaxis(np.asarray(a, dtype=np.float64), -1, 0)
-    bx, by, bz, bw = np.moveaxis(np.asarray(b, dtype=np.float64), -1, 0)
-    return np.stack(
-        [
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-            aw * bw - ax * bx - ay * by - az * bz,
-        ],
-        axis=-1,
-    )
+    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
+    ax, ay, az, aw = (a[..., part] for part in range(4))
+    bx, by, bz, bw = (b[..., part] for part in range(4))
+    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    product[..., 0] = aw * bx + ax * bw + ay * bz - az * by
+    product[..., 1] = aw * by - ax * bz + ay * bw + az * bx
+    product[..., 2] = aw * bz + ax * by - ay * bx + az * bw
+    product[..., 3] = aw * bw - ax * bx - ay * by - az * bz
+    return product
 
 
 def conjugate(q: ArrayLike) -> NDArray[np.float64]:
@@ -41,8 +39,19 @@ def rotate(q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
     turn = np.asarray(q, dtype=np.float64)
     start = np.asarray(v, dtype=np.float64)
     axis = turn[..., :3]
-    twice = 2.0 * np.cross(axis, start)
-    return start + turn[..., 3:] * twice + np.cross(axis, twice)
+    twice = 2.0 * _cross(axis, start)
+    return start + turn[..., 3:] * twice + _cross(axis, twice)
+
+
+def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The cross product (..., 3) without the checks that make ``np.cross`` several times slower on small batches."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    product = np.empty(np.broadcast_shapes(a.shape, b.shape))
+    product[..., 0] = ay * bz - az * by
+    product[..., 1] = az * bx - ax * bz
+    product[..., 2] = ax * by - ay * bx
+    return product
 
 
 def from_rotation_vector(vector: ArrayLike) -> NDArray[np.float64]:
@@ -79,7 +88,7 @@ def between(a: ArrayLike, b: ArrayLike) -> NDArray[np.float64]:
     """The smallest rotation that turns the directions ``a`` onto ``b`` (..., 3), neither of them zero."""
     start, end = normalise(a), normalise(b)
     cosine = np.sum(start * end, axis=-1, keepdims=True)
-    q = np.concatenate([np.cross(start, end), 1.0 + cosine], axis=-1)
+    q = np.concatenate([_cross(start, end), 1.0 + cosine], axis=-1)
     opposite = cosine < -1.0 + 1e-9
     return normalise(np.where(opposite, _half_turn(start), q))
 
@@ -87,7 +96,7 @@ def between(a: ArrayLike, b: ArrayLike) -> NDArray[np.float64]:
 def _half_turn(a: NDArray[np.float64]) -> NDArray[np.float64]:
     """A half turn about any axis across ``a``: opposite directions have no single smallest rotation."""
     helper = np.where(np.abs(a[..., :1]) < 0.9, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
-    return np.concatenate([normalise(np.cross(a, helper)), np.zeros((*a.shape[:-1], 1))], axis=-1)
+    return np.concatenate([normalise(_cross(a, helper)), np.zeros((*a.shape[:-1], 1))], axis=-1)
 
 
 def unroll(q: ArrayLike) -> NDArray[np.float64]:

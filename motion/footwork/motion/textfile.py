@@ -3,7 +3,6 @@
 import contextlib
 import os
 from collections.abc import Sequence
-from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -70,38 +69,43 @@ def whole_number(word: str | bytes, where: object) -> int:
     return int(value)
 
 
-def number_rows(
-    rows: Sequence[Sequence[bytes]], lines: Sequence[int], width: int, path: str | Path
-) -> NDArray[np.float64]:
-    """Rows of words as numbers.  # (len(rows), width)
+def number_rows(texts: Sequence[bytes], lines: Sequence[int], width: int, path: str | Path) -> NDArray[np.float64]:
+    """Lines of numbers as an array.  # (len(texts), width)
 
     Args:
-        rows: the words of each row.
-        lines: line number of each row in the file, from 1.
-        width: how many numbers each row must have.
+        texts: numbers between white space.
+        lines: line number of each text in the file, from 1.
+        width: how many numbers each must hold.
         path: the file, for messages.
 
     Raises:
-        InputError: for a row of another length, or a word that is no finite number of ordinary size.
+        InputError: for a line with another count, or a word that is no finite number of ordinary size.
     """
-    for row, line in zip(rows, lines, strict=True):
+    values = _loaded(texts) if width and texts else np.empty((len(texts), width))
+    # loadtxt passes over empty lines, so the number of rows tells whether there were any.
+    if not width or values.shape != (len(texts), width) or not (np.abs(values) < MAX_SIZE).all():
+        _require_rows(texts, lines, width, path)
+    return values
+
+
+def _loaded(texts: Sequence[bytes]) -> NDArray[np.float64]:
+    """The numbers, or an empty array where something is wrong with them."""
+    try:
+        return np.loadtxt(texts, comments=None, ndmin=2) if any(texts) else np.empty((0, 0))
+    except ValueError:
+        return np.empty((0, 0))
+
+
+def _require_rows(texts: Sequence[bytes], lines: Sequence[int], width: int, path: str | Path) -> None:
+    """Find the first bad line and raise InputError."""
+    for text, line in zip(texts, lines, strict=True):
+        row = text.split()
         if len(row) != width:
             raise InputError(f"{len(row)} numbers, expected {width}", f"{path}:{line}")
-    flat = list(chain.from_iterable(rows))
-    try:
-        values = np.fromiter(map(float, flat), np.float64, len(flat))
-        sound = bool((np.abs(values) < MAX_SIZE).all()) and b"_" not in b" ".join(flat)
-    except ValueError:
-        values, sound = np.empty(0), False
-    if not sound:
-        _raise_first_bad(rows, lines, path)
-    return values.reshape(len(rows), width)
-
-
-def _raise_first_bad(rows: Sequence[Sequence[bytes]], lines: Sequence[int], path: str | Path) -> None:
-    for row, line in zip(rows, lines, strict=True):
         for word in row:
             number(word, f"{path}:{line}")
+    if width:
+        raise InputError("numbers that cannot be read", f"{path}:{lines[0]}")
 
 
 def write_whole(path: str | Path, data: bytes) -> None:
