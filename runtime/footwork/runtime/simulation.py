@@ -14,6 +14,7 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.task import ONE_SHOT
+from footwork.runtime.warm import warm_kernels
 from footwork.runtime.world import World
 
 STEERING = "steering"
@@ -24,7 +25,7 @@ _IDLE = "stop"
 class PoseFrames:
     """What is shown of every slot at one moment; rows of slots that hold no character mean nothing.
 
-    The arrays are the simulation's own buffers, which the next call writes over.
+    The arrays are the simulation's own, and hold until the next step or show.
 
     Args:
         root: place of joint 0 in the world, metres.  # (capacity, 3) float32
@@ -77,21 +78,14 @@ class Simulation:
         self._shown_as = self._numbering()
         self._edges = np.zeros(capacity, dtype=np.int32)
         self._who = np.zeros(0, dtype=np.intp)
-        self._warm()
+        self._note_actions()
+        warm_kernels(graph, self._controller.table)
 
     def _numbering(self) -> NDArray[np.int32]:
         """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
         graph = self.bundle.graph
         numbers = [self.behaviours.index(name) if name in self.behaviours else -1 for name in graph.behaviours]
         return np.array([*numbers, -1], dtype=np.int32)
-
-    def _warm(self) -> None:
-        """Compile, or load, every kernel before the first tick."""
-        slot = self.spawn(0.0, 0.0, 0.0)
-        self.step()
-        self.show(0.5)
-        self.remove(slot)
-        self.tick = 0
 
     @property
     def full(self) -> bool:
@@ -137,18 +131,26 @@ class Simulation:
         self._controller.choose(world.node[who], facing, heading, asked[who], chosen)
         self._edges[who] = chosen
         world.step(self._edges)
+        self._note_actions()
         self.tick += 1
 
-    def show(self, fraction: float) -> PoseFrames:
-        """What is shown at a fraction of the tick in (0, 1]; 1 is its own moment."""
+    def _note_actions(self) -> None:
+        """What every character does in this tick; the same in all of its frames."""
         graph, node = self.bundle.graph, self.world.node
+        self._behaviour = self._shown_as[graph.behaviour[node]]
+        self._clip = graph.clip[node]
+        self._source_frame = graph.frame[node]
+        self._transition = ~graph.natural[self.world.edge]
+
+    def show(self, fraction: float) -> PoseFrames:
+        """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
         root, rotations = self.world.show(fraction)
         return PoseFrames(
             root=root,
             rotations=rotations,
             facing=self.world.place[:, 2],
-            behaviour=self._shown_as[graph.behaviour[node]],
-            clip=graph.clip[node],
-            source_frame=graph.frame[node],
-            transition=~graph.natural[self.world.edge],
+            behaviour=self._behaviour,
+            clip=self._clip,
+            source_frame=self._source_frame,
+            transition=self._transition,
         )

@@ -1,0 +1,172 @@
+"""Command-to-pose time, tick time and lateness of a server with one client, beside what the machine does without it.
+
+    python benchmarks/server.py [--seconds 10] [BUNDLE]
+
+Prints one JSON object. Server and client are processes of their own, on TCP loopback. Beside the server, in the same
+run: a bare ROUTER/DEALER echo of messages of the same sizes, and the lateness of an empty loop on the same deadlines.
+
+Command-to-pose is measured twice: for commands sent at random moments, most of which is the wait for the next tick
+(on average half of 33.3 ms), and for commands aimed to arrive ``AIM`` before a tick, where that wait is small.
+Without a bundle it plays the tests' toy one, whose poses have the sizes of any on the common body.
+"""
+
+import argparse
+import json
+import multiprocessing
+import os
+import platform
+import random
+import sys
+import time
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import zmq
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+
+from footwork.motion.bundle import Bundle, read_bundle
+from footwork.protocol import messages as m
+from footwork.protocol.client import Client
+from footwork.protocol.codec import encode
+from footwork.runtime.clock import SECOND, FrameClock, now_ns
+from footwork.runtime.ring import Ring
+from footwork.runtime.server import Server
+from toy_bundle import toy_bundle
+
+TICK = 1.0 / 30.0
+AIM = 0.003
+ECHOES = 3000
+PROCESSES = multiprocessing.get_context("spawn")
+
+
+def shares(values: list[float] | Ring, *wanted: float) -> dict[str, float]:
+    """Percentiles by name, such as p99.9."""
+    look = values.percentile if isinstance(values, Ring) else lambda share: float(np.percentile(values, share))
+    return {f"p{share:g}": round(look(share), 3) for share in wanted}
+
+
+def load(path: str) -> Bundle:
+    """The bundle of a file, or the toy one for no file."""
+    return read_bundle(path) if path else toy_bundle()
+
+
+def serve(path: str, rate: int, pipe: Connection) -> None:
+    """Process: a server until the pipe says something; tells its address first and its figures last."""
+    server = Server(load(path), bind="tcp://127.0.0.1:0", rate=rate)
+    pipe.send(server.address)
+    server.run(until=pipe.poll)
+    pipe.send({**server.summary(), "lateness_us": shares(server.lateness_us, 50, 99, 99.9)})
+
+
+def echo(sizes: tuple[int, int], pipe: Connection) -> None:
+    """Process: a bare ROUTER that answers each message with one of the size of a pose."""
+    socket = zmq.Context.instance().socket(zmq.ROUTER)
+    socket.bind("tcp://127.0.0.1:*")
+    pipe.send(socket.get_string(zmq.LAST_ENDPOINT))
+    answer = bytes(sizes[1])
+    while not pipe.poll():
+        if socket.poll(10):
+            peer, _ = socket.recv_multipart()
+            socket.send_multipart([peer, answer])
+
+
+def empty_loop(rate: int, seconds: float, pipe: Connection) -> None:
+    """Process: wakes at every deadline of a server and does nothing."""
+    lateness = Ring()
+    clock = FrameClock(rate, now_ns() + SECOND // rate)
+    for _ in range(round(rate * seconds)):
+        time.sleep(max(0, clock.deadline - now_ns()) / SECOND)
+        lateness.add((now_ns() - clock.deadline) / 1000.0)
+        clock.advance(now_ns())
+    pipe.send(shares(lateness, 50, 99, 99.9))
+
+
+def in_process(target: Any, *arguments: Any) -> tuple[Any, Connection]:
+    """Start ``target(*arguments, pipe)`` in a process of its own; returns it and our end of the pipe."""
+    ours, theirs = PROCESSES.Pipe()
+    process = PROCESSES.Process(target=target, args=(*arguments, theirs), daemon=True)
+    process.start()
+    return process, ours
+
+
+def command_to_pose(client: Client, seconds: float, aimed: bool) -> list[float]:
+    """Milliseconds from sending a command to the first pose that acknowledges it, one command after another."""
+    rng, waits = random.Random(1), []
+    end = time.monotonic() + seconds
+    poses = client.poses()
+    while time.monotonic() < end:
+        last_tick = next(time.monotonic() for pose in poses if pose.frame == 1)
+        time.sleep(max(0.0, last_tick + TICK - AIM - time.monotonic()) if aimed else rng.uniform(0.0, 2.0 * TICK))
+        sent = time.monotonic()
+        sequence = client.command(0, rng.uniform(-3.0, 3.0), client.welcome.behaviours[0])
+        arrived = next(time.monotonic() for pose in poses if pose.acknowledged >= sequence)
+        waits.append(1000.0 * (arrived - sent))
+    return waits
+
+
+def served(path: str, rate: int, seconds: float) -> dict[str, Any]:
+    """Figures of a server at one rate."""
+    process, pipe = in_process(serve, path, rate)
+    with Client(pipe.recv(), timeout=60.0) as client:
+        client.spawn(0)
+        waits = {name: command_to_pose(client, seconds / 2, name == "aimed") for name in ("random", "aimed")}
+    pipe.send("enough")
+    summary = pipe.recv()
+    process.join()
+    times = {name: shares(values, 50, 99) for name, values in waits.items()}
+    return {"command_to_pose_ms": times, "commands": {name: len(values) for name, values in waits.items()}} | summary
+
+
+def message_sizes() -> tuple[int, int]:
+    """Bytes of a command and of a pose on the common body."""
+    command = m.Command(sequence=1000, character=0, heading=1.0, behaviour="walk")
+    whole = {"tick": 1000, "frame": 1, "character": 0, "acknowledged": 1000, "behaviour": 1, "clip": 1}
+    pose = m.Pose(**whole, source_frame=1, facing=1.0, transition=False, root=bytes(12), rotations=bytes(21 * 16))
+    return len(encode(command)), len(encode(pose))
+
+
+def bare_echo() -> dict[str, Any]:
+    """Microseconds of a round trip without anything of ours."""
+    sizes = message_sizes()
+    process, pipe = in_process(echo, sizes)
+    socket = zmq.Context.instance().socket(zmq.DEALER)
+    socket.connect(pipe.recv())
+    question, trips = bytes(sizes[0]), []
+    for _ in range(ECHOES):
+        sent = time.perf_counter()
+        socket.send(question)
+        socket.recv()
+        trips.append(1e6 * (time.perf_counter() - sent))
+    socket.close(linger=0)
+    pipe.send("enough")
+    process.join()
+    return {"bytes": sizes, "round_trip_us": shares(trips[ECHOES // 10 :], 50, 99)}
+
+
+def idle(rate: int, seconds: float) -> dict[str, float]:
+    """Lateness of an empty loop, microseconds."""
+    process, pipe = in_process(empty_loop, rate, seconds)
+    figures = pipe.recv()
+    process.join()
+    return figures
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bundle", nargs="?", default="", metavar="BUNDLE")
+    parser.add_argument("--seconds", type=float, default=10.0, help="of each measurement (default 10)")
+    options = parser.parse_args()
+    report: dict[str, Any] = {"machine": platform.machine(), "cores": os.cpu_count(), "load": os.getloadavg()[0]}
+    report["echo"] = bare_echo()
+    for rate in (30, 60):
+        figures = served(options.bundle, rate, options.seconds)
+        report[f"rate_{rate}"] = figures | {"empty_loop_lateness_us": idle(rate, options.seconds)}
+    print(json.dumps(report))
+
+
+if __name__ == "__main__":
+    main()
