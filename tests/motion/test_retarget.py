@@ -5,27 +5,34 @@ from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.body import BALL_HEIGHT, FEET, NAMES, default_body, rest_height
 from footwork.motion.clip import Clip
-from footwork.motion.kinematics import clip_places
-from footwork.motion.name_table import built_in_tables, read_name_table, table_for
+from footwork.motion.ik import leg, place_limb
+from footwork.motion.kinematics import clip_places, forward
+from footwork.motion.name_table import read_name_table, table_for
 from footwork.motion.retarget import common_body_of, onto_common_body
 from footwork.motion.skeleton import Skeleton
 
+SIDES = ("left", "right")
 
-def random_walk_clip(frames=60, seed=3):
-    """The default body stepping with small smooth turns of every joint, knees bent, feet near the floor."""
+
+def swaying_clip(frames=60, seed=3):
+    """The default body standing on planted feet, hips, trunk and arms swaying smoothly with bent knees."""
     body, rng = default_body(), np.random.default_rng(seed)
     time = np.arange(frames) / 30.0
-    waves = rng.normal(size=(body.joint_count, 3)) * 0.25
     phases = rng.uniform(0.0, 6.0, size=(body.joint_count, 3))
-    vectors = waves * np.sin(4.0 * time[:, None, None] + phases)
-    for side in ("left", "right"):
-        for part, bend in (("thigh", -0.6), ("shank", 1.2), ("foot", -0.6)):
-            vectors[:, body.index(f"{side}_{part}")] *= [0.3, 0.1, 0.1]
-            vectors[:, body.index(f"{side}_{part}"), 0] += bend
-    vectors[:, 0] *= [0.3, 1.0, 0.3]
+    vectors = 0.25 * rng.normal(size=(body.joint_count, 3)) * np.sin(4.0 * time[:, None, None] + phases)
+    legs = [body.index(f"{side}_{part}") for side in SIDES for part in ("thigh", "shank", "foot", "toes")]
+    vectors[:, legs] = 0.0
+    vectors[:, 0] *= 0.5
     rotations = quaternion.from_rotation_vector(vectors)
-    root = np.stack([0.2 * time, np.full(frames, rest_height(body) - 0.12), 0.8 * time], axis=-1)
-    return Clip("wave", body, 30.0, root, rotations, labels=np.full(frames, "walk"))
+    height = rest_height(body)
+    root = np.stack([0.05 * np.sin(2.0 * time), height - 0.1 - 0.04 * np.cos(time), 0.06 * np.sin(time)], axis=-1)
+    rest, _ = forward(body, [0.0, height, 0.0], np.tile(quaternion.IDENTITY, (body.joint_count, 1)))
+    for side in SIDES:
+        limb = leg(body, side)
+        rotations = place_limb(body, root, rotations, limb, rest[limb.tip])
+        _, turns = forward(body, root, rotations)
+        rotations[:, limb.tip] = quaternion.conjugate(turns[:, limb.lower])  # the sole level, toes ahead
+    return Clip("sway", body, 30.0, root, rotations, labels=np.full(frames, "idle"))
 
 
 def disguised(clip, scale, seed=7):
@@ -68,24 +75,22 @@ def written_table(path, axes, world_axes):
 
 @pytest.mark.parametrize("scale", [1.0, 0.3, 39.37])
 def test_a_disguised_copy_comes_back_as_the_same_motion(tmp_path, scale):
-    clip = random_walk_clip()
+    clip = swaying_clip()
     copy, axes, world_axes = disguised(clip, scale)
     table = read_name_table(written_table(tmp_path / "mine.toml", axes, world_axes))
     assert table_for(copy.skeleton, [table]) is table
     back = onto_common_body(copy, default_body(), table)
     wanted, _ = clip_places(clip)
     found, _ = clip_places(back)
-    straight = onto_common_body(clip, default_body(), table_for(clip.skeleton))
-    assert np.allclose(found, clip_places(straight)[0], atol=1e-9)
-    trunk_and_arms = [NAMES.index(name) for name in NAMES if not name.endswith(("thigh", "shank", "foot", "toes"))]
-    assert np.allclose(np.abs(np.sum(back.rotations * clip.rotations, axis=-1))[:, trunk_and_arms], 1.0, atol=1e-9)
-    shift = found - wanted
-    assert np.allclose(shift[..., [0, 2]], 0.0, atol=0.01)
+    assert np.allclose(found, wanted, atol=2e-3)
+    turned = 2.0 * np.arccos(np.clip(np.abs(np.sum(back.rotations * clip.rotations, axis=-1)), 0.0, 1.0))
+    assert np.degrees(turned).max() < 1.0
+    assert back.contacts.all()
     assert back.labels.tolist() == clip.labels.tolist()
 
 
 def test_the_common_body_is_found_again_from_a_copy(tmp_path):
-    clip = random_walk_clip()
+    clip = swaying_clip()
     copy, axes, world_axes = disguised(clip, 1.0)
     table = read_name_table(written_table(tmp_path / "mine.toml", axes, world_axes))
     body = common_body_of([copy], [table])
@@ -96,14 +101,14 @@ def test_the_common_body_is_found_again_from_a_copy(tmp_path):
 def test_two_people_make_their_mean_however_many_clips_each():
     small, tall = default_body(), default_body()
     tall = Skeleton(NAMES, tall.parents, 1.2 * tall.offsets, feet=FEET)
-    clip = random_walk_clip(10)
+    clip = swaying_clip(10)
     clips = [Clip("a", small, 30.0, clip.root_position, clip.rotations)] * 3
     clips += [Clip("b", tall, 30.0, clip.root_position, clip.rotations)]
     assert np.allclose(common_body_of(clips).offsets, 1.1 * small.offsets)
 
 
 def test_travel_scales_with_the_legs():
-    clip = random_walk_clip()
+    clip = swaying_clip()
     tall = Skeleton(NAMES, clip.skeleton.parents, 1.25 * clip.skeleton.offsets, feet=FEET)
     giant = Clip("giant", tall, 30.0, 1.25 * clip.root_position, clip.rotations)
     same, from_giant = (
@@ -124,7 +129,7 @@ def test_a_standing_body_stands_at_its_rest_height_wherever_the_floor_was():
 def test_no_clips_and_legs_without_length_are_refused():
     with pytest.raises(InputError, match="no clips"):
         common_body_of([])
-    clip = random_walk_clip(5)
+    clip = swaying_clip(5)
     offsets = np.array(clip.skeleton.offsets)
     for part, message in (("shank", None), ("foot", "legs have no length"), ("toes", "expected a foot that points")):
         offsets[clip.skeleton.indices([f"left_{part}", f"right_{part}"])] = 0.0
@@ -133,9 +138,3 @@ def test_no_clips_and_legs_without_length_are_refused():
             source = Clip("short", short, 30.0, clip.root_position, clip.rotations)
             with pytest.raises(InputError, match=message):
                 onto_common_body(source, default_body(), table_for(short))
-
-
-def test_the_tables_that_come_along_carry_what_their_licences_ask():
-    texts = {table.name: table.attribution for table in built_in_tables()}
-    assert "mocap.cs.cmu.edu" in texts["CMU"]
-    assert "CC BY 3.0" in texts["ACCAD"]

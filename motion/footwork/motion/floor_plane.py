@@ -14,6 +14,9 @@ from footwork.motion.grounding import ball_places, heights_above_rest
 from footwork.motion.kinematics import central_velocity
 from footwork.motion.skeleton import Skeleton
 
+# How slow a ball must be, for how many frames, to stand. Runners at 30 Hz are never still for three frames: the
+# wider tests serve where the first finds nothing.
+_STILL = ((ON_SPEED, SHORTEST_RUN), (2.5 * ON_SPEED, 2), (5.0 * ON_SPEED, 1))  # metres a second, frames
 # A foot whose ball is this much lower than its ankle, above rest, stands on its toes, and only the ball counts.
 _TIPTOE = 0.045  # metres
 _HEIGHT_SPREAD = 0.015  # metres, of one stance about the floor
@@ -38,8 +41,8 @@ def level_floor(
     Returns:
         places (F, J, 3) and rotations (F, J, 4).
     """
-    stances = _stances(body, places, turns, fps)
-    if not len(stances):
+    stances = next((found for test in _STILL if len(found := _stances(body, places, turns, fps, *test))), None)
+    if stances is None:
         lowest = np.minimum(*heights_above_rest(body, places, turns)).min(axis=1)
         return places - [0.0, float(np.percentile(lowest, GROUND_PERCENTILE)), 0.0], turns
     slope_x, slope_z, height = _plane(stances)
@@ -50,13 +53,18 @@ def level_floor(
 
 
 def _stances(
-    body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64], fps: float
+    body: Skeleton,
+    places: NDArray[np.float64],
+    turns: NDArray[np.float64],
+    fps: float,
+    slowest: float,
+    shortest: int,
 ) -> NDArray[np.float64]:
     """For each run of frames in which a foot keeps still: x, z, height above rest and side, -1 or 1.  # (N, 4)"""
     ankles, balls = heights_above_rest(body, places, turns)
     heights = np.where(ankles - balls < _TIPTOE, 0.5 * (ankles + balls), balls)
     points = ball_places(body, places, turns)
-    still = drop_short_runs(np.linalg.norm(central_velocity(points, fps), axis=-1) < ON_SPEED, SHORTEST_RUN)
+    still = drop_short_runs(np.linalg.norm(central_velocity(points, fps), axis=-1) < slowest, shortest)
     found = []
     for foot in range(len(FEET)):
         edges = np.flatnonzero(np.diff(still[:, foot], prepend=False, append=False))
