@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from footwork.motion import quaternion
-from footwork.runtime.inertialisation import decay_weights
+from footwork.runtime.inertialisation import decay_weights, ticks_to_settle
 from footwork.runtime.world import World
 from toy_graphs import edge_between, graph_of, homogeneous, wandering_clip
 
@@ -77,6 +77,27 @@ def test_without_inertialisation_the_jump_is_bare():
     root, rotations = bare.show(1.0)
     np.testing.assert_array_equal(rotations[0, 1:], GRAPH.rotations[JUMP[1] + 1, 1:])
     assert root[0, 1] == GRAPH.root_position[JUMP[1] + 1, 1]
+
+
+@pytest.mark.parametrize("halflife", [0.02, 0.1, 0.5])
+def test_offsets_that_are_dropped_were_too_small_to_see(halflife):
+    a, b, _, _ = decay_weights(ticks_to_settle(halflife) / 30.0, halflife)
+    assert 10.0 * a + 100.0 * b < 1e-6
+
+
+def test_after_settling_the_pose_is_the_node_to_the_last_bit():
+    clip = wandering_clip(3, frames=80)
+    graph = graph_of([clip, wandering_clip(4)], [(90, 5)])
+    world, bare = World(graph, 1), World(graph, 1, inertialise=False)
+    for each in (world, bare):
+        each.spawn(90, 0.0, 0.0, 0.0)
+        take(each, 90, 6)
+    for node in range(6, 6 + ticks_to_settle(0.1)):
+        assert world.show(0.7)[1].tobytes() != bare.show(0.7)[1].tobytes()
+        take(world, node, node + 1)
+        take(bare, node, node + 1)
+    assert world.show(0.7)[1].tobytes() == bare.show(0.7)[1].tobytes()
+    assert world.show(0.7)[0].tobytes() == bare.show(0.7)[0].tobytes()
 
 
 def test_offsets_die_away():

@@ -34,9 +34,8 @@ from footwork.runtime.rotation_kernels import (
 TICK = 1.0 / 30.0
 """Seconds of one tick."""
 
-NEGLIGIBLE = 1e-6
-"""Offsets under this many metres and radians are dropped."""
-
+_NEGLIGIBLE = 1e-6
+_LARGE = 10.0
 _TOO_FAST = 100.0
 """Offset velocities are held under this, rad/s: so an offset stays under a whole turn, where the series hold."""
 
@@ -47,6 +46,17 @@ def decay_weights(seconds: float, halflife: float) -> tuple[float, float, float,
     y = 2.0 * math.log(2.0) / halflife
     e = math.exp(-y * seconds)
     return e * (1.0 + y * seconds), e * seconds, -e * y * y * seconds, e * (1.0 - y * seconds)
+
+
+def ticks_to_settle(halflife: float) -> int:
+    """After how many ticks any offset of a body (10 m, 10 rad) is under a micrometre and a microradian.
+
+    Offsets are dropped then: left alone they would end as denormal numbers, which never reach zero and are slow.
+    """
+    ticks = 1
+    while np.dot(decay_weights(ticks * TICK, halflife)[:2], [_LARGE, _TOO_FAST]) > _NEGLIGIBLE:
+        ticks += 1
+    return ticks
 
 
 @numba.njit(cache=True, nogil=True)
@@ -72,18 +82,19 @@ def _joint_offset(offset, velocity, old, old_spin, new, new_spin):
         new: the new motion's local rotation at the same time.
         new_spin: its angular velocity.
     """
-    shown = multiply(exp(offset[0], offset[1], offset[2]), old)
-    left = log(multiply(shown, (-new[0], -new[1], -new[2], new[3])))
-    speed = along(spin(offset, velocity), 1.0, rotate(offset, old_spin), -1.0, rotate(left, new_spin))
-    return left, _capped(rate(left, speed), _TOO_FAST)
+    turn = exp(offset[0], offset[1], offset[2])
+    left_turn = multiply(multiply(turn, old), (-new[0], -new[1], -new[2], new[3]))
+    left = log(left_turn)
+    goes = along(spin(offset, turn, velocity), 1.0, rotate(turn, old_spin), -1.0, rotate(left_turn, new_spin))
+    return left, _capped(rate(left, left_turn, goes), _TOO_FAST)
 
 
 @numba.njit(cache=True, nogil=True)
-def decay(active: NDArray, offsets: NDArray, roots: NDArray, seconds: float, halflife: float) -> None:
-    """Let the offsets of all active characters decay by ``seconds``, in place.
+def decay(ticks_left: NDArray, offsets: NDArray, roots: NDArray, seconds: float, halflife: float) -> None:
+    """Let the offsets of all characters that have any decay by ``seconds``, in place.
 
     Args:
-        active: which rows are characters.  # (C,)
+        ticks_left: after how many more calls the offsets are dropped, 0 where there are none.  # (C,)
         offsets: ``motion_rows.offset_rows`` of the joints, rad and rad/s.  # (C, 6, padded J)
         roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
         seconds: how long.
@@ -91,8 +102,13 @@ def decay(active: NDArray, offsets: NDArray, roots: NDArray, seconds: float, hal
     """
     a, b, c, d = decay_weights(seconds, halflife)
     narrow = np.float32(a), np.float32(b), np.float32(c), np.float32(d)
-    for who in range(active.shape[0]):
-        if not active[who]:
+    for who in range(ticks_left.shape[0]):
+        if ticks_left[who] == 0:
+            continue
+        ticks_left[who] -= 1
+        if ticks_left[who] == 0:
+            offsets[who] = 0.0
+            roots[who] = 0.0
             continue
         _decay_row(roots[who, 0], roots[who, 1], (a, b, c, d))
         for k in range(3):

@@ -66,35 +66,44 @@ def along(v, a, u, b, w):
 
 
 @numba.njit(cache=True, nogil=True)
-def rotate(x, v):
-    """exp(x) v by Rodrigues' formula."""
-    angle = math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
-    tiny = angle < 1e-6
-    first = 1.0 if tiny else math.sin(angle) / angle
-    second = 0.5 if tiny else (1.0 - math.cos(angle)) / (angle * angle)
+def rotate(q, v):
+    """The vector v turned by the quaternion q."""
+    axis = q[0], q[1], q[2]
+    across = cross(axis, v)
+    return along(v, 2.0 * q[3], across, 2.0, cross(axis, across))
+
+
+@numba.njit(cache=True, nogil=True)
+def _size(x):
+    """The length of a vector."""
+    return math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
+
+
+@numba.njit(cache=True, nogil=True)
+def spin(x, q, v):
+    """The angular velocity of q = exp(x) where x changes at rate v: the left Jacobian of SO(3) times v.
+
+    With x of length a: v + (1 - cos a) / a^2 x cross v + (a - sin a) / a^3 x cross (x cross v).
+    """
+    angle, half_sine = _size(x), _size(q)
+    tiny = angle < 1e-2
+    first = 0.5 if tiny else 2.0 * half_sine * half_sine / (angle * angle)
+    second = 1.0 / 6.0 if tiny else (angle - 2.0 * half_sine * q[3]) / (angle * angle * angle)
     across = cross(x, v)
     return along(v, first, across, second, cross(x, across))
 
 
 @numba.njit(cache=True, nogil=True)
-def spin(x, v):
-    """The angular velocity of exp(x) where x changes at rate v: the left Jacobian of SO(3) times v."""
-    angle = math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
-    tiny = angle < 1e-3
-    first = 0.5 if tiny else (1.0 - math.cos(angle)) / (angle * angle)
-    second = 1.0 / 6.0 if tiny else (angle - math.sin(angle)) / (angle * angle * angle)
-    across = cross(x, v)
-    return along(v, first, across, second, cross(x, across))
+def rate(x, q, spun):
+    """The rate at which x changes while q = exp(x) turns at ``spun``: the inverse of ``spin``, for angles up to pi.
 
-
-@numba.njit(cache=True, nogil=True)
-def rate(x, spin):
-    """The rate at which x changes while exp(x) turns at ``spin``: the inverse of ``spin``, for angles up to pi."""
-    angle = math.sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])
-    half = 0.5 * angle
-    second = 1.0 / 12.0 if angle < 1e-3 else (1.0 - half / math.tan(half)) / (angle * angle)
-    across = cross(x, spin)
-    return along(spin, -0.5, across, second, cross(x, across))
+    With x of length a: s - x cross s / 2 + (1 - a / 2 cot(a / 2)) / a^2 x cross (x cross s), where s is ``spun``.
+    """
+    angle, half_sine = _size(x), _size(q)
+    tiny = angle < 1e-2
+    second = 1.0 / 12.0 if tiny else (1.0 - 0.5 * angle * abs(q[3]) / half_sine) / (angle * angle)
+    across = cross(x, spun)
+    return along(spun, -0.5, across, second, cross(x, across))
 
 
 @numba.njit(cache=True, nogil=True)

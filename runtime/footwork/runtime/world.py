@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from footwork.errors import FootworkError
 from footwork.motion.graph import MotionGraph
 from footwork.runtime import posing
-from footwork.runtime.inertialisation import TICK, decay, jump
+from footwork.runtime.inertialisation import TICK, decay, jump, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
 from footwork.runtime.rotation_kernels import turned
 
@@ -75,6 +75,8 @@ def take_edges(active: NDArray, edges: NDArray, target: NDArray, displacement: N
 
 @numba.njit(cache=True, nogil=True)
 def take_jumps(
+    settle_ticks: int,
+    ticks_left: NDArray,
     active: NDArray,
     edges: NDArray,
     natural: NDArray,
@@ -88,9 +90,13 @@ def take_jumps(
     offsets: NDArray,
     roots: NDArray,
 ) -> None:
-    """``inertialisation.jump`` for all active characters whose edge is a transition; see there for the arrays."""
+    """``inertialisation.jump`` for all active characters whose edge is a transition; see there for the arrays.
+
+    ``ticks_left`` is set to ``settle_ticks`` for them.
+    """
     for who in range(active.shape[0]):
         if active[who] and not natural[edges[who]]:
+            ticks_left[who] = settle_ticks
             jump(
                 who,
                 old_node[who],
@@ -143,6 +149,8 @@ class World:
         self.edge = np.full(capacity, NO_EDGE, dtype=np.int32)
         self._offsets = offset_rows(capacity, joints)
         self._roots = np.zeros((capacity, 2, 3))
+        self._ticks_left = np.zeros(capacity, dtype=np.int32)
+        self._settle_ticks = ticks_to_settle(halflife)
         self._old_node = np.zeros_like(self.node)
         self._old_place = np.zeros_like(self.place)
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
@@ -166,7 +174,7 @@ class World:
         self.node[slot] = node
         self.edge[slot] = NO_EDGE
         self.place[slot] = x, z, within_half_turn(yaw)
-        self._offsets[slot] = self._roots[slot] = 0.0
+        self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = 0
         return slot
 
     def remove(self, slot: int) -> None:
@@ -217,8 +225,10 @@ class World:
 
     def _carry_over(self, edges: NDArray[np.int32]) -> None:
         """Let the offsets decay over the tick that ended, then take the jumps of transitions into them."""
-        decay(self.active, self._offsets, self._roots, TICK, self.halflife)
+        decay(self._ticks_left, self._offsets, self._roots, TICK, self.halflife)
         take_jumps(
+            self._settle_ticks,
+            self._ticks_left,
             self.active,
             edges,
             self.graph.natural,
