@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import NamedTuple
+from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,9 @@ from footwork.motion.window import RADIUS
 from footwork.motion.window_costs import window_costs
 
 THREADS = 2
-_CHUNK = 128  # frames: large enough for fast matrix products, small enough that a stripe of them stays in the cache
+# Frames a block is long and wide: its products stay in the cache, and are small enough that the linear algebra
+# library computes each on the thread that asks for it, so that our threads never wait for the library's.
+_BLOCK = 64
 
 
 def all_pairs(
@@ -29,75 +32,72 @@ def all_pairs(
     Args:
         places: points of each frame, near the origin so that no accuracy is lost.  # (N, P, 3)
         lengths: frames of each clip; they sum to N.
-        windows: the frames of each frame's window.  # (N, K)
-        weights: of a window's frames, sum 1.  # (K,)
+        windows: the frames of each frame's window.  # (N, LENGTH)
+        weights: of a window's frames, symmetric, sum 1.  # (LENGTH,)
         point_weights: of a frame's points, sum 1.  # (P,)
         scale: what squared distances are multiplied by.
     """
-    job = _Job(
-        _chunks(lengths),
-        weights,
-        *_moments(places, windows, weights, point_weights),
-        scale,
-        np.empty((len(places), len(places))),
-    )
-    factors = _factors(places, windows, job.chunks, point_weights)
+    mean, energy = _moments(places, windows, weights, point_weights)
+    stretches = [
+        _stretch(slice(begin, end), places[_padded(windows[begin:end])], point_weights, mean, energy)
+        for begin, end in _cuts(lengths)
+    ]
+    costs = np.empty((len(places), len(places)))
+
+    def fill_rows(number: int) -> None:
+        a, scratch = stretches[number], np.empty((3, _BLOCK))
+        for b in stretches[number:]:
+            block, mirrored = costs[a.frames, b.frames], costs[b.frames, a.frames]
+            means = (a.mean, b.mean, a.energy, b.energy)
+            window_costs(_products(a, b), weights[RADIUS:], *means, scale, scratch, block, mirrored)
+
     with ThreadPoolExecutor(THREADS) as pool:
-        for number in range(len(job.chunks.first)):
-            _fill_stripe(pool, number, factors, job)
-    return job.costs
+        list(pool.map(fill_rows, range(len(stretches))))
+    return costs
 
 
-class _Chunks(NamedTuple):
-    """Stretches of at most _CHUNK frames of one clip each, and where their padded rows begin."""
+@dataclass(frozen=True, eq=False)
+class _Stretch:
+    """At most _BLOCK frames of one clip; the factors of products are over M = these and the context around them."""
 
-    first: NDArray[np.intp]  # (C,)
-    frames: NDArray[np.intp]  # (C,)
-    column: NDArray[np.intp]  # (C,)
-
-
-def _chunks(lengths: Sequence[int]) -> _Chunks:
-    counts: list[int] = []
-    for length in lengths:
-        whole, rest = divmod(length, _CHUNK)
-        counts += [_CHUNK] * whole + [rest] * (rest > 0)
-    count = np.array(counts, dtype=np.intp)
-    first = np.cumsum(count) - count
-    return _Chunks(first, count, first + 2 * RADIUS * np.arange(len(count)))
-
-
-class _Job(NamedTuple):
-    """What every stripe needs; letters as in ``window_costs``."""
-
-    chunks: _Chunks
-    weights: NDArray[np.float64]
-    mean: NDArray[np.float64]
-    energy: NDArray[np.float64]
-    scale: float
-    costs: NDArray[np.float64]
-
-
-class _Factors(NamedTuple):
-    """What the three products are made of, over padded frames M; the left ones carry the weights."""
-
-    left: NDArray[np.float64]  # (M, 2P) x and z
-    left_y: NDArray[np.float64]  # (M, P)
-    same: NDArray[np.float64]  # (2P, M) x and z
+    frames: slice
+    weighted: NDArray[np.float64]  # (M, 2P) x and z times their weights
+    weighted_y: NDArray[np.float64]  # (M, P)
+    ground: NDArray[np.float64]  # (2P, M) x and z
     crossed: NDArray[np.float64]  # (2P, M) z and -x
-    same_y: NDArray[np.float64]  # (P, M)
+    y: NDArray[np.float64]  # (P, M)
+    mean: NDArray[np.float64]  # (frames, 2)
+    energy: NDArray[np.float64]  # (frames,)
 
 
-def _factors(places: NDArray, windows: NDArray, chunks: _Chunks, weights: NDArray) -> _Factors:
-    rows = [_padded(windows[first : first + count]) for first, count in zip(chunks.first, chunks.frames, strict=True)]
-    x, y, z = np.moveaxis(places[np.concatenate(rows)], -1, 0)
-    left = np.concatenate([x * weights, z * weights], axis=1)
-    same, crossed = np.concatenate([x, z], axis=1).T, np.concatenate([z, -x], axis=1).T
-    return _Factors(left, y * weights, *(np.ascontiguousarray(part) for part in (same, crossed, y.T)))
+def _cuts(lengths: Sequence[int]) -> list[tuple[int, int]]:
+    """Begin and end of stretches: each clip cut evenly into as few as there can be."""
+    cuts: list[tuple[int, int]] = []
+    start = 0
+    for length in lengths:
+        edges = np.linspace(start, start + length, -(-length // _BLOCK) + 1).round().astype(int).tolist()
+        cuts += pairwise(edges)
+        start += length
+    return cuts
 
 
 def _padded(windows: NDArray) -> NDArray[np.intp]:
-    """The frames of a chunk with the context before and after it, from the windows of its frames."""
+    """The frames of a stretch with the context before and after it, from the windows of its frames."""
     return np.concatenate([windows[0, :RADIUS], windows[:, RADIUS], windows[-1, RADIUS + 1 :]])
+
+
+def _stretch(frames: slice, points: NDArray, weights: NDArray, mean: NDArray, energy: NDArray) -> _Stretch:
+    x, y, z = np.moveaxis(points, -1, 0)
+    return _Stretch(
+        frames=frames,
+        weighted=np.concatenate([x * weights, z * weights], axis=1),
+        weighted_y=y * weights,
+        ground=np.concatenate([x.T, z.T]),
+        crossed=np.concatenate([z.T, -x.T]),
+        y=np.ascontiguousarray(y.T),
+        mean=mean[frames],
+        energy=energy[frames],
+    )
 
 
 def _moments(places: NDArray, windows: NDArray, weights: NDArray, point_weights: NDArray) -> tuple[NDArray, NDArray]:
@@ -108,25 +108,10 @@ def _moments(places: NDArray, windows: NDArray, weights: NDArray, point_weights:
     return mean, frame_square[windows] @ weights - np.sum(mean**2, axis=1)
 
 
-def _fill_stripe(pool: ThreadPoolExecutor, number: int, factors: _Factors, job: _Job) -> None:
-    """Costs of the frames of one chunk with all frames of the same and later chunks, on all threads."""
-    first, count, column = job.chunks
-    begin, rows = column[number], count[number]
-    gram = _products(factors, slice(begin, begin + rows + 2 * RADIUS), begin)
-
-    def fill(part: NDArray) -> None:
-        others = (first[part], count[part], column[part] - begin)
-        sums = np.empty((3, _CHUNK))
-        window_costs(gram, job.weights, first[number], rows, *others, job.mean, job.energy, job.scale, sums, job.costs)
-
-    later = np.arange(number, len(first))
-    list(pool.map(fill, (later[thread::THREADS] for thread in range(THREADS))))
-
-
-def _products(factors: _Factors, rows: slice, begin: int) -> NDArray[np.float64]:
-    """The products of some padded frames with all from ``begin`` on.  # (3, rows, M - begin)"""
-    gram = np.empty((3, rows.stop - rows.start, factors.same.shape[1] - begin))
-    np.matmul(factors.left[rows], factors.same[:, begin:], out=gram[0])
-    np.matmul(factors.left[rows], factors.crossed[:, begin:], out=gram[1])
-    np.matmul(factors.left_y[rows], factors.same_y[:, begin:], out=gram[2])
+def _products(a: _Stretch, b: _Stretch) -> NDArray[np.float64]:
+    """Per-frame sums over points of x x' + z z', x z' - z x' and y y'.  # (3, M of a, M of b)"""
+    gram = np.empty((3, len(a.weighted), b.ground.shape[1]))
+    np.matmul(a.weighted, b.ground, out=gram[0])
+    np.matmul(a.weighted, b.crossed, out=gram[1])
+    np.matmul(a.weighted_y, b.y, out=gram[2])
     return gram

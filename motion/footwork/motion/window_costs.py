@@ -10,53 +10,48 @@ from numpy.typing import NDArray
 def window_costs(
     gram: NDArray,
     weights: NDArray,
-    row: int,
-    rows: int,
-    first: NDArray,
-    count: NDArray,
-    column: NDArray,
-    mean: NDArray,
-    energy: NDArray,
+    i_mean: NDArray,
+    j_mean: NDArray,
+    i_energy: NDArray,
+    j_energy: NDArray,
     scale: float,
     sums: NDArray,
     costs: NDArray,
+    mirrored: NDArray,
 ) -> None:
-    """Fill the blocks (rows of one chunk) x (each of some other chunks) of the cost matrix, and their mirror images.
-
-    A chunk is a stretch of frames of one clip; its padded rows hold its frames and the context on either side, so
-    that the window of the chunk's frame r covers its padded rows r..r + K - 1.
+    """Fill a block of the cost matrix and its mirror image: A frames in a row against B frames in a row.
 
     Args:
-        gram: products of the row chunk's padded frames with all padded frames of the other chunks, summed over
-            points: x x' + z z', x z' - z x' and y y'.  # (3, >= rows + K - 1, padded columns)
-        weights: the window's weights.  # (K,)
-        row: the first frame of the row chunk.
-        rows: its number of frames.
-        first: the first frame of each column chunk.  # (C,)
-        count: its number of frames.  # (C,)
-        column: its first padded column in ``gram``.  # (C,)
-        mean: weighted mean x and z of each frame's window.  # (N, 2)
-        energy: weighted mean square of each frame's window, less that of its mean.  # (N,)
+        gram: products of the A frames and K // 2 more on either side with the B frames and theirs, summed over
+            points: x x' + z z', x z' - z x' and y y'.  # (3, A + K - 1, B + K - 1)
+        weights: of the window's middle frame and of those next to it on both sides, outwards.  # (K // 2 + 1,)
+        i_mean: weighted mean x and z of the A windows.  # (A, 2)
+        j_mean: that of the B windows.  # (B, 2)
+        i_energy: weighted mean square of the A windows less that of their mean.  # (A,)
+        j_energy: that of the B windows.  # (B,)
         scale: what squared metres are multiplied by.
-        sums: scratch.  # (3, >= largest count)
-        costs: the result.  # (N, N)
+        sums: scratch.  # (3, >= B)
+        costs: the result.  # (A, B)
+        mirrored: the result, mirrored.  # (B, A)
     """
-    for chunk in range(first.shape[0]):
-        start, frames, offset = first[chunk], count[chunk], column[chunk]
-        for i in range(row, row + rows):
-            sums[:, :frames] = 0.0
-            for k in range(weights.shape[0]):
+    rows, columns = costs.shape
+    radius = weights.shape[0] - 1
+    for i in range(rows):
+        for part in range(3):
+            total, middle = sums[part], gram[part, i + radius, radius:]
+            for j in range(columns):
+                total[j] = weights[0] * middle[j]
+            for k in range(1, radius + 1):
                 weight = weights[k]
-                for part in range(3):
-                    products, total = gram[part, i - row + k, offset + k : offset + k + frames], sums[part]
-                    for j in range(frames):
-                        total[j] += weight * products[j]
-            line, x, z, own = costs[i, start : start + frames], mean[i, 0], mean[i, 1], energy[i]
-            for j in range(frames):
-                real = sums[0, j] - x * mean[start + j, 0] - z * mean[start + j, 1]
-                imaginary = sums[1, j] - x * mean[start + j, 1] + z * mean[start + j, 0]
-                left = own + energy[start + j] - 2.0 * sums[2, j] - 2.0 * math.sqrt(real * real + imaginary * imaginary)
-                line[j] = scale * max(left, 0.0)
-        for j in range(start, start + frames):
-            for i in range(row, row + rows):
-                costs[j, i] = costs[i, j]
+                early, late = gram[part, i + radius - k, radius - k :], gram[part, i + radius + k, radius + k :]
+                for j in range(columns):
+                    total[j] += weight * (early[j] + late[j])
+        line, x, z, own = costs[i], i_mean[i, 0], i_mean[i, 1], i_energy[i]
+        for j in range(columns):
+            real = sums[0, j] - x * j_mean[j, 0] - z * j_mean[j, 1]
+            imaginary = sums[1, j] - x * j_mean[j, 1] + z * j_mean[j, 0]
+            left = own + j_energy[j] - 2.0 * sums[2, j] - 2.0 * math.sqrt(real * real + imaginary * imaginary)
+            line[j] = scale * max(left, 0.0)
+    for j in range(columns):
+        for i in range(rows):
+            mirrored[j, i] = costs[i, j]
