@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from footwork.errors import InputError
 from footwork.motion.euler import from_euler
 from footwork.motion.skeleton import Skeleton
-from footwork.motion.textfile import MAX_JOINTS, number, read_lines, words
+from footwork.motion.textfile import MAX_JOINTS, MAX_NAME, number, read_lines, words
 
 INCH = 0.0254
 ROOT = "root"
@@ -167,7 +167,7 @@ def _read_bones(path: str | Path, lines: list[_Line], radians: float) -> dict[st
 
 
 def _add_bone(bones: dict[str, _Bone], bone: _Bone, line: _Line) -> None:
-    if not bone.name or bone.name == ROOT or bone.name in bones:
+    if not 0 < len(bone.name) <= MAX_NAME or bone.name == ROOT or bone.name in bones:
         raise line.error(f"bone name {bone.name[:40]!r}, expected a name used once and other than 'root'")
     if len(bones) >= MAX_JOINTS:
         raise line.error(f"more than {MAX_JOINTS} bones")

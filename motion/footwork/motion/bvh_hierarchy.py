@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from footwork.errors import InputError
-from footwork.motion.textfile import MAX_JOINTS, number, whole_number, words
+from footwork.motion.textfile import MAX_JOINTS, MAX_NAME, number, whole_number, words
 
 POSITIONS = ("Xposition", "Yposition", "Zposition")
 ROTATIONS = ("Xrotation", "Yrotation", "Zrotation")
@@ -87,7 +87,10 @@ class _Words:
         parts: list[str] = []
         while (word := self.next("'{'")) != "{":
             parts.append(word)
-        return " ".join(parts)
+        name = " ".join(parts)
+        if len(name) > MAX_NAME:
+            raise self.error(f"a name of {len(name)} letters, expected {MAX_NAME} at most")
+        return name
 
     @property
     def where(self) -> str:
@@ -114,7 +117,7 @@ def _read_entry(source: _Words, joints: list[BvhJoint], open_joints: list[int]) 
             open_joints.pop()
         case word:
             raise source.error(
-                f"{word[:40]!r} in joint {joint.name[:40]!r}, "
+                f"{word[:40]!r} in joint {joint.name!r}, "
                 "expected one OFFSET, one CHANNELS, then JOINT, End Site or '}'"
             )
 
@@ -122,14 +125,17 @@ def _read_entry(source: _Words, joints: list[BvhJoint], open_joints: list[int]) 
 def _open_joint(source: _Words, joints: list[BvhJoint], open_joints: list[int]) -> None:
     if len(joints) == MAX_JOINTS:
         raise source.error(f"more than {MAX_JOINTS} joints")
-    joints.append(BvhJoint(source.name(), parent=open_joints[-1]))
+    name = source.name()
+    if any(joint.name == name for joint in joints):
+        raise source.error(f"joint name {name!r} is used twice")
+    joints.append(BvhJoint(name, parent=open_joints[-1]))
     open_joints.append(len(joints) - 1)
 
 
 def _close_joint(source: _Words, joint: BvhJoint) -> None:
     missing = "OFFSET" if joint.offset is None else "CHANNELS" if joint.channels is None else None
     if missing:
-        raise source.error(f"joint {joint.name[:40]!r} ends without {missing}")
+        raise source.error(f"joint {joint.name!r} ends without {missing}")
 
 
 def _read_channels(source: _Words) -> list[str]:

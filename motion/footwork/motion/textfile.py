@@ -12,6 +12,7 @@ from footwork.errors import InputError
 
 MAX_BYTES = 64 * 2**20  # ten minutes at 120 frames a second
 MAX_JOINTS = 1000
+MAX_NAME = 200
 # No length, angle or time in a motion file comes near it, and products of numbers under it stay finite.
 MAX_SIZE = 1e9
 
