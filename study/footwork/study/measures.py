@@ -1,0 +1,175 @@
+"""The measures of how a character followed a player: functions of what was asked, shown and taken at each tick.
+
+Source of all definitions: papers.md 5, "Definitions C for Table 6", and 10, "Protocol C". Tick k is the command in
+force at k/30 s, the edge chosen for it, and the frame which that edge leads to, shown at (k + 1)/30 s; that frame is
+the one judged. Times therefore count from the command to the frame: the fastest possible answer takes 1/30 s.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.motion.task import BEHAVIOURS, HEADED, SteeringTask
+
+TICK = 1.0 / 30.0
+STEP = math.radians(15.0)
+"""A command that turns by more than this in one tick is a step change; an error within it is settled."""
+TASK = SteeringTask()
+"""The task that scores are made by, whatever the bundle was solved for: sigma 30 degrees, sigma 1 for smoothness."""
+_IS_HEADED = np.array([name in HEADED for name in BEHAVIOURS])
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """What was asked and what came of it, a row a tick.
+
+    Args:
+        heading: wanted yaw, radians.  # (K,)
+        behaviour: what was asked for, an index into ``task.BEHAVIOURS``.  # (K,)
+        jump: number of the jump window that the tick lies in, -1 for none.  # (K,)
+        facing: of the frame that the edge leads to, radians.  # (K,)
+        shown: behaviour of that frame, an index into ``task.BEHAVIOURS``, -1 for none.  # (K,)
+        cost: s of the edge by the uniform metric, 0 for natural edges.  # (K,)
+        natural: whether the edge follows the capture.  # (K,)
+    """
+
+    heading: NDArray[np.float64]
+    behaviour: NDArray[np.int32]
+    jump: NDArray[np.int32]
+    facing: NDArray[np.float64]
+    shown: NDArray[np.int32]
+    cost: NDArray[np.float64]
+    natural: NDArray[np.bool_]
+
+    @property
+    def headed(self) -> NDArray[np.bool_]:
+        """Ticks at which walk or run is asked for.  # (K,)"""
+        return _IS_HEADED[self.behaviour]
+
+    @property
+    def error(self) -> NDArray[np.float64]:
+        """How far the facing is off the wanted heading, 0..pi.  # (K,)"""
+        return np.abs(_wrapped(self.heading - self.facing))
+
+    @property
+    def control(self) -> NDArray[np.float64]:
+        """qc of each tick; 0 where another behaviour is shown than asked for.  # (K,)"""
+        return TASK.control_quality(self.heading - self.facing, self.behaviour, self.shown)
+
+    @property
+    def transition(self) -> NDArray[np.float64]:
+        """qt = exp(-s / sigma) of each tick, 1 for natural edges.  # (K,)"""
+        return np.where(self.natural, 1.0, np.exp(-self.cost / TASK.smoothness_sigma))
+
+
+@dataclass(frozen=True, eq=False)
+class Answers:
+    """How long each change of a command took to be answered.
+
+    Args:
+        seconds: up to the answer, or where there was none up to the next change.  # (changes,)
+        answered: whether it was answered before the next change.  # (changes,)
+    """
+
+    seconds: NDArray[np.float64]
+    answered: NDArray[np.bool_]
+
+    def summary(self) -> dict[str, float | None]:
+        """Mean and 95th percentile of the times, None where there was no change."""
+        return mean_and_p95(self.seconds)
+
+    @property
+    def share(self) -> float | None:
+        """The share of changes that were answered, None where there was none."""
+        return float(self.answered.mean()) if len(self.answered) else None
+
+
+def joined(parts: Sequence[Any]) -> Any:
+    """Several Followed, or several Answers, one after the other."""
+    names = [item.name for item in fields(parts[0])]
+    return type(parts[0])(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+
+def answers(changes: NDArray, ends: NDArray, reached: NDArray) -> Answers:
+    """Follow each change of a command until it is reached or ends.
+
+    Args:
+        changes: ticks at which the command changes, ascending.  # (n,)
+        ends: for each the tick at which it is no longer in force.  # (n,)
+        reached: whether the frame of a tick does what was asked.  # (K,)
+    """
+    first = np.append(np.flatnonzero(reached), len(reached))
+    hit = first[np.searchsorted(first, changes)]
+    answered = hit < ends
+    return Answers(np.where(answered, hit - changes + 1, ends - changes) * TICK, answered)
+
+
+def settling(followed: Followed) -> Answers:
+    """Settle time: from each step change of the heading until the error is within 15 degrees.
+
+    A step change is a wanted heading more than 15 degrees away from the last tick's, with walk or run asked for at
+    both. It counts as unreached at the next step change, and when walking or running is no longer asked for.
+    """
+    turned = np.abs(_wrapped(np.diff(followed.heading))) > STEP
+    going = followed.headed[1:] & followed.headed[:-1]
+    changes = np.flatnonzero(turned & going) + 1
+    over = np.append(np.flatnonzero((turned & going) | ~followed.headed[1:]) + 1, len(followed.heading))
+    ends = over[np.searchsorted(over, changes, side="right")]
+    return answers(changes, ends, followed.error <= STEP)
+
+
+def latencies(followed: Followed) -> Answers:
+    """Behaviour latency: from each change of the behaviour asked for until a frame of it is shown, or the next."""
+    changes = np.flatnonzero(np.diff(followed.behaviour)) + 1
+    ends = np.append(changes[1:], len(followed.behaviour))[: len(changes)]
+    return answers(changes, ends, followed.shown == followed.behaviour)
+
+
+def jumps(followed: Followed) -> dict[str, int]:
+    """How many jump windows there were, and in how many a frame of a jump was shown."""
+    asked = np.unique(followed.jump[followed.jump >= 0])
+    inside = (followed.jump >= 0) & (followed.shown == BEHAVIOURS.index("jump"))
+    return {"asked": len(asked), "answered": len(np.unique(followed.jump[inside]))}
+
+
+def quality(followed: Followed) -> dict[str, Any]:
+    """Control, Transition and Total: means over ticks, and their product (papers.md 5).
+
+    ``transition_jumps`` is the mean qt over edges that are not natural, None without any;
+    ``total_by_tick`` is the mean of qc qt, the second figure that papers.md 5 asks for.
+    """
+    control, transition, jumped = followed.control, followed.transition, ~followed.natural
+    return {
+        "control": float(control.mean()),
+        "transition": float(transition.mean()),
+        "transition_jumps": float(transition[jumped].mean()) if jumped.any() else None,
+        "total": float(control.mean() * transition.mean()),
+        "total_by_tick": float((control * transition).mean()),
+        "heading_error_deg": mean_and_p95(np.degrees(followed.error[followed.headed])),
+    }
+
+
+def bootstrap_total(parts: Sequence[Followed], samples: int = 2000, seed: int = 0) -> list[float] | None:
+    """The 95 % interval of Total when traces are drawn anew with replacement; None for fewer than two traces."""
+    if len(parts) < 2:
+        return None
+    sums = np.array([[len(part.heading), part.control.sum(), part.transition.sum()] for part in parts])
+    drawn = np.random.default_rng(seed).integers(0, len(parts), (samples, len(parts)))
+    ticks, control, transition = sums[drawn].sum(axis=1).T
+    return [float(bound) for bound in np.percentile(control * transition / ticks**2, [2.5, 97.5])]
+
+
+def mean_and_p95(values: NDArray) -> dict[str, float | None]:
+    """Mean and 95th percentile, None where there are no values."""
+    if not len(values):
+        return {"mean": None, "p95": None}
+    return {"mean": float(np.mean(values)), "p95": float(np.percentile(values, 95))}
+
+
+def _wrapped(angle: NDArray) -> NDArray[np.float64]:
+    """The same angle within -pi..pi."""
+    return (angle + np.pi) % (2.0 * np.pi) - np.pi

@@ -1,0 +1,140 @@
+"""Replaying a recorded player through a character: the same controller and the same world as under the server."""
+
+import time
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.errors import InputError
+from footwork.motion.graph import MotionGraph
+from footwork.motion.task import BEHAVIOURS
+from footwork.runtime.world import World
+from footwork.study.foot_slide import Slide, shown_balls, slide_of_frames
+from footwork.study.measures import Followed
+from footwork.study.trace import TICK_HZ, SteeringCommands, Trace, steering_commands
+
+
+class Controller(Protocol):
+    """What a score needs of a controller: ``controllers.steering.SteeringController``, or another of this form."""
+
+    @property
+    def present(self) -> tuple[str, ...]:
+        """The behaviours that some frame shows."""
+        ...
+
+    def start_node(self, behaviour: str = "stop") -> int:
+        """Where to spawn."""
+        ...
+
+    def choose(self, node: NDArray, facing: NDArray, heading: NDArray, behaviour: NDArray, out: NDArray) -> None:
+        """Write the edge that each character shall take into ``out``."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Replay:
+    """What came of one trace.
+
+    Args:
+        name: of the trace.
+        followed: what was asked and shown.
+        slide: of the shown poses' feet.
+        tick_us: decision, step and show of each tick, microseconds.  # (K,)
+    """
+
+    name: str
+    followed: Followed
+    slide: Slide
+    tick_us: NDArray[np.float64]
+
+
+def replay(
+    graph: MotionGraph, trace: Trace, controller: Controller, *, inertialise: bool = True, most_ticks: int | None = None
+) -> Replay:
+    """Let a character follow a trace, from a frame that stands, facing along the view.
+
+    A behaviour that no frame shows cannot be asked of a controller: it is asked to walk in place of run, and at
+    any other such tick to go on with what it was last asked for. The score still holds it against the trace.
+
+    Args:
+        graph: where the character lives.
+        trace: the player.
+        controller: what chooses edges.
+        inertialise: whether transitions are smoothed.
+        most_ticks: stop after so many ticks.
+
+    Raises:
+        InputError: for a graph without a frame of any behaviour.
+    """
+    if not controller.present:
+        raise InputError("no frame shows any behaviour, expected at least one", graph.where)
+    commands = steering_commands(trace, 0.0, controller.present).first(most_ticks)
+    asked = _askable(commands.behaviour, graph.behaviours, controller.present)
+    world = World(graph, 1, inertialise=inertialise)
+    start = "stop" if "stop" in controller.present else controller.present[0]
+    world.spawn(controller.start_node(start), 0.0, 0.0, 0.0)
+    ran = _run(world, controller, commands.heading, asked)
+    return Replay(trace.name, _followed(graph, commands, ran), _slide(graph, ran), ran.nanoseconds / 1e3)
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """What the world went through: edges, facings, poses and times of K ticks."""
+
+    edge: NDArray[np.int32]
+    facing: NDArray[np.float64]
+    root: NDArray[np.float32]
+    rotations: NDArray[np.float32]
+    nanoseconds: NDArray[np.int64]
+
+
+def _run(world: World, controller: Controller, heading: NDArray, asked: NDArray) -> _Run:
+    ticks, joints = len(heading), world.graph.skeleton.joint_count
+    run = _Run(
+        np.empty(ticks, np.int32),
+        np.empty(ticks),
+        np.empty((ticks, 3), np.float32),
+        np.empty((ticks, joints, 4), np.float32),
+        np.empty(ticks, np.int64),
+    )
+    edge, clock = np.zeros(1, np.int32), time.perf_counter_ns
+    facing = world.place[:, 2]
+    for tick in range(ticks):
+        wanted, behaviour = heading[tick : tick + 1], asked[tick : tick + 1]
+        began = clock()
+        controller.choose(world.node, facing, wanted, behaviour, edge)
+        world.step(edge)
+        root, rotations = world.show(1.0)
+        run.nanoseconds[tick] = clock() - began
+        run.edge[tick], run.facing[tick] = edge[0], facing[0]
+        run.root[tick], run.rotations[tick] = root[0], rotations[0]
+    return run
+
+
+def _askable(behaviour: NDArray, numbered: tuple[str, ...], present: tuple[str, ...]) -> NDArray[np.int32]:
+    """What to ask of the controller: an index into ``numbered`` for each tick."""
+    asked = np.array([numbered.index(name) if name in present else -1 for name in BEHAVIOURS])[behaviour]
+    first = numbered.index("stop" if "stop" in present else present[0])
+    known = np.maximum.accumulate(np.where(asked >= 0, np.arange(1, len(asked) + 1), 0))
+    return np.concatenate([[first], asked])[known].astype(np.int32)
+
+
+def _followed(graph: MotionGraph, commands: SteeringCommands, run: _Run) -> Followed:
+    names = [BEHAVIOURS.index(name) if name in BEHAVIOURS else -1 for name in graph.behaviours]
+    return Followed(
+        heading=commands.heading,
+        behaviour=commands.behaviour,
+        jump=commands.jump,
+        facing=run.facing,
+        shown=np.array([*names, -1], np.int32)[graph.behaviour[graph.target[run.edge]]],
+        # the graph's costs are the uniform metric's, as scores ask for
+        cost=graph.cost[run.edge].astype(np.float64),
+        natural=graph.natural[run.edge],
+    )
+
+
+def _slide(graph: MotionGraph, run: _Run) -> Slide:
+    balls = shown_balls(graph, run.root, run.rotations)
+    return slide_of_frames(balls, graph.contacts[graph.target[run.edge]], TICK_HZ)

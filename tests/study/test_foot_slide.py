@@ -1,0 +1,37 @@
+import numpy as np
+import pytest
+
+from footwork.motion import quaternion
+from footwork.motion.body import default_body
+from footwork.motion.clip import Clip
+from footwork.study.foot_slide import slide_of_capture, slide_of_clip, slide_of_frames
+from motion_samples import ring_graph
+
+
+def gliding(speed: float, contacts: np.ndarray) -> Clip:
+    body, frames = default_body(), len(contacts)
+    place = np.zeros((frames, 3))
+    place[:, 2], place[:, 1] = speed * np.arange(frames) / 30.0, 0.94 + 0.1 * np.arange(frames)
+    return Clip("glide", body, 30.0, place, np.tile(quaternion.IDENTITY, (frames, body.joint_count, 1)), contacts)
+
+
+def test_a_body_that_glides_slides_at_its_speed_and_rising_is_no_slide():
+    assert slide_of_clip(gliding(0.25, np.ones((20, 2), dtype=bool))).cm_per_second == pytest.approx(25.0)
+
+
+def test_only_steps_between_two_frames_in_contact_count():
+    contacts = np.zeros((6, 2), dtype=bool)
+    contacts[1:4, 0] = contacts[5, 1] = True
+    slide = slide_of_clip(gliding(0.3, contacts))
+    assert slide.seconds == pytest.approx(2 / 30)
+    assert slide.metres == pytest.approx(2 * 0.3 / 30)
+
+
+def test_without_contact_there_is_no_figure():
+    assert slide_of_frames(np.zeros((4, 2, 3)), np.zeros((4, 2)), 30.0).cm_per_second is None
+
+
+def test_the_capture_in_a_graph_slides_as_its_natural_edges_move():
+    graph = ring_graph(6)
+    standing = type(graph)(**{**vars(graph), "contacts": np.ones((6, 2), dtype=bool)})
+    assert slide_of_capture(standing).cm_per_second == pytest.approx(100 * 0.04 * 30, rel=1e-5)
