@@ -35,10 +35,10 @@ class Minima:
 def local_minima(costs: NDArray[np.float64], lengths: Sequence[int], threshold: float = np.inf) -> Minima:
     """Pairs of frames whose cost is under ``threshold`` and no more than that of their neighbours.
 
-    A pair's neighbours are the eight pairs around it whose frames lie in the same two clips. Pairs that cannot
-    be left in either direction, for both frames are the last of their clips, are none. Of equal
-    neighbours the first in reading order (by i, then j) counts as the lower one, so that the result is
-    deterministic and a plateau gives few minima.
+    A pair's neighbours are those of the eight pairs around it whose frames lie in the same two clips: a capture
+    has no frames past its ends, and its last frame can only be left by a transition. Pairs of two last frames
+    lead nowhere and are left out. Of equal neighbours the first in reading order (by i, then j) counts as the
+    lower one, so that the result is deterministic and a plateau gives few minima.
 
     Args:
         costs: s of every pair of frames, symmetric.  # (N, N)

@@ -1,0 +1,37 @@
+"""What this machine can do at best, measured in the same run as what is compared with it."""
+
+import statistics
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+
+def seconds_of(work: Callable[[], object], repeats: int) -> list[float]:
+    """How long each of some repeats took, after one that is not counted."""
+    work()
+    times = []
+    for _ in range(repeats):
+        started = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - started)
+    return times
+
+
+def spread(values: list[float]) -> dict[str, float]:
+    """Median, least and greatest."""
+    return {"median": statistics.median(values), "min": min(values), "max": max(values)}
+
+
+def matrix_product_peak(size: int = 1024, repeats: int = 7) -> float:
+    """The best rate of float64 matrix products with all threads of the linear algebra library, flop/s."""
+    rng = np.random.default_rng(0)
+    a, b, out = rng.random((size, size)), rng.random((size, size)), np.empty((size, size))
+    return 2.0 * size**3 / min(seconds_of(lambda: np.matmul(a, b, out=out), repeats))
+
+
+def memory_bandwidth(megabytes: int = 256, repeats: int = 5) -> float:
+    """The best rate at which one thread reads and writes arrays larger than the caches, bytes/s."""
+    source = np.ones(megabytes << 17)
+    target = np.empty_like(source)
+    return 2.0 * source.nbytes / min(seconds_of(lambda: np.copyto(target, source), repeats))
