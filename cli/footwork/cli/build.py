@@ -41,6 +41,7 @@ def build(
         discount: The worth of the next tick's reward against this one's.
         json: Print the report as one JSON object.
     """
+    from footwork.motion.bundle import write_bundle
     from footwork.motion.task import SteeringTask
     from footwork.training.build import build_bundle
 
@@ -54,7 +55,7 @@ def build(
         bundle, report = build_bundle(dataset, threshold=threshold, task=task, progress=report_progress)
         digest = write_bundle(out, bundle)
     seconds = report["seconds"] | {"read": read, "total": time.perf_counter() - started}
-    emit(report | {"seconds": seconds, "digest": digest}, json, f"{out}")
+    emit(report | {"seconds": seconds, "digest": digest}, json, str(out))
 
 
 def _check_options(graph: str, out: Path) -> None:

@@ -1,6 +1,8 @@
 """``footwork serve``: the server."""
 
+import math
 import signal
+import time
 from pathlib import Path
 from typing import Annotated
 
@@ -38,5 +40,6 @@ def serve(
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: server.stop())
     log(f"listening on {server.address}")
-    server.run(seconds)
+    end = math.inf if seconds is None else time.monotonic() + seconds
+    server.run(until=lambda: time.monotonic() >= end)
     emit(server.summary(), json, f"{server.address}")

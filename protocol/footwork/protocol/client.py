@@ -138,14 +138,24 @@ class Client:
             if isinstance(message, m.Pose):
                 yield message
 
-    def _require(self, timeout: float, problem: str) -> m.FromServer:
+    def listen(self, timeout: float) -> m.FromServer | None:
+        """As ``receive``, but a refusal or a bye is raised.
+
+        Raises:
+            RefusedError: where the server refuses a message or says bye.
+            PeerError: for a server that does not keep to the protocol.
+        """
         message = self.receive(timeout)
-        if message is None:
-            raise RefusedError("timeout", f"{problem} in {timeout:g} s")
         if isinstance(message, m.Error):
             raise RefusedError(message.code, message.message, message.sequence, message.valid)
         if isinstance(message, m.Bye):
             raise RefusedError(message.reason, "the server ended the session")
+        return message
+
+    def _require(self, timeout: float, problem: str) -> m.FromServer:
+        message = self.listen(timeout)
+        if message is None:
+            raise RefusedError("timeout", f"{problem} in {timeout:g} s")
         return message
 
     def _next(self) -> int:
