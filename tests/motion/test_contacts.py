@@ -38,6 +38,14 @@ def test_a_point_needs_both_height_and_speed():
         assert not found[31:].any()
 
 
+def test_flickers_shorter_than_half_the_median_filter_go():
+    points, _ = stepping_point(120.0, [(0.0, 3.0)])
+    points[100:105, 1] += 0.1  # five of the filter's thirteen frames
+    assert point_contacts(points, 120.0).all()
+    points[100:120, 1] += 0.1
+    assert not point_contacts(points, 120.0)[105:115].any()
+
+
 def test_hysteresis_holds_between_the_thresholds():
     height = np.full(60, 0.03)
     height[20:25] = 0.03 + 0.032  # above on, below off
