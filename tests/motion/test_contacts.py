@@ -40,7 +40,7 @@ def test_a_point_needs_both_height_and_speed():
 
 def test_flickers_shorter_than_half_the_median_filter_go():
     points, _ = stepping_point(120.0, [(0.0, 3.0)])
-    points[100:105, 1] += 0.1  # five of the filter's thirteen frames
+    points[100:104, 1] += 0.1  # off for six frames, of the thirteen of the filter
     assert point_contacts(points, 120.0).all()
     points[100:120, 1] += 0.1
     assert not point_contacts(points, 120.0)[105:115].any()
