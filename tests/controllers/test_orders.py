@@ -35,7 +35,6 @@ def test_a_one_shot_waits_for_a_second_at_most():
 def test_a_one_shot_is_ignored_while_the_character_is_in_it():
     orders = walking()
     orders.give(0, Command(0.0, WALK, JUMP), shown=JUMP)
-    assert asked(orders, JUMP) == WALK
     assert asked(orders, WALK) == WALK
 
 

@@ -112,8 +112,9 @@ def test_a_wrong_edge_is_named_and_nobody_moves():
     with pytest.raises(WrongEdge, match="character 1 at node 5 was given edge 0, expected 5 to 5"):
         world.step(np.zeros(2, dtype=np.int32))
     assert world.node.tolist() == [0, 5]
-    with pytest.raises(WrongEdge):
-        world.step(np.array([-1, 5], dtype=np.int32))
+    for edge in (-1, 1):
+        with pytest.raises(WrongEdge, match=f"character 0 at node 0 was given edge {edge}, expected 0 to 0"):
+            world.step(np.array([edge, 5], dtype=np.int32))
 
 
 def test_slots_are_reused_and_a_full_world_says_so():
