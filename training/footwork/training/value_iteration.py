@@ -56,7 +56,7 @@ def solve(
     """
     _check(graph, task)
     model = _model(graph, task)
-    shape = (graph.node_count, len(task.behaviours), 2 * task.heading_bins + 1)
+    shape = (graph.node_count, len(task.behaviours), 2 * task.heading_bins)
     old, new = np.zeros(shape), np.empty(shape)
     spans = _spans(graph.edge_start)
     residual, sweeps, first = math.inf, 0, 0.0
@@ -129,8 +129,8 @@ def _sweep(
 ) -> float:
     """One sweep over the nodes begin..end-1; the largest change.
 
-    Rows of values are written twice over and once more, (N, B, 2H + 1), so that a row shifted by some bins is a
-    plain stretch of memory.
+    Rows of values are written twice over, (N, B, 2H), so that a row shifted by some bins is a plain stretch of
+    memory.
     """
     headings = reward.shape[1]
     best = np.empty(headings)
@@ -153,5 +153,4 @@ def _sweep(
                 largest = max(largest, abs(best[h] - before[h]))
                 row[h] = best[h]
                 row[h + headings] = best[h]
-            row[2 * headings] = best[0]
     return largest
