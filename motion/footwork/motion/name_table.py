@@ -7,7 +7,7 @@ import math
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +45,11 @@ class JointRule:
     turn: str
     place: tuple[str, ...]
     axes: dict[str, Vector]
+
+    @cached_property
+    def frame(self) -> NDArray[np.float64]:
+        """The rotation from the body's rest axes to the source joint's own, for a rule with two axes.  # (4,)"""
+        return frame_of({axis: np.array(vector) for axis, vector in self.axes.items()})
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,7 @@ def _rest_frame(
     if joint.endswith("_foot") and len(rule.axes) < 2:
         return _foot_frame(joint, rule, points, captured, table)
     if rule.axes:
-        return frame_of({axis: np.array(vector) for axis, vector in rule.axes.items()})
+        return rule.frame
     return quaternion.conjugate(table.world)  # at rest the source's joints are turned like its world
 
 
