@@ -1,14 +1,19 @@
 """The bundle of the demo: built once from the embedded motions (or a folder), then kept in the user's cache."""
 
+from __future__ import annotations
+
 import hashlib
 import os
 from importlib.metadata import version
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footwork.cli.output import Report, log
 from footwork.errors import InputError
-from footwork.motion.bundle import Bundle, read_bundle, write_bundle
-from footwork.training.dataset import Dataset
+
+if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help answers at once
+    from footwork.motion.bundle import Bundle
+    from footwork.training.dataset import Dataset
 
 THRESHOLD = 1.0
 
@@ -20,6 +25,8 @@ def cache_folder() -> Path:
 
 def build_or_reuse(dataset: Dataset, cache: Path, progress: Report) -> tuple[Path, Bundle]:
     """The bundle of ``dataset``, from ``cache`` where an intact one lies there."""
+    from footwork.motion.bundle import read_bundle
+
     path = cache / f"{_fingerprint(dataset)}.footwork"
     if path.exists():
         try:
@@ -30,6 +37,7 @@ def build_or_reuse(dataset: Dataset, cache: Path, progress: Report) -> tuple[Pat
 
 
 def _build(dataset: Dataset, path: Path, progress: Report) -> Bundle:
+    from footwork.motion.bundle import write_bundle
     from footwork.training.build import build_bundle
 
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,22 +1,26 @@
 """``footwork demo``: the main job in one go."""
 
+from __future__ import annotations
+
 import json as json_module
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from statistics import fmean
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 from cyclopts import Parameter
 
 from footwork.cli.default_bundle import build_or_reuse, cache_folder
 from footwork.cli.motions import load_motions
 from footwork.cli.output import emit, log, progress
-from footwork.cli.scripted_player import Played, play
 from footwork.errors import FootworkError, InputError
-from footwork.motion.bundle import Bundle
+
+if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help answers at once
+    from footwork.cli.scripted_player import Played
+    from footwork.motion.bundle import Bundle
 
 
 def demo(
@@ -56,6 +60,7 @@ def demo(
 
 def play_at(address: str, seconds: float) -> Played:
     """Play the script as a client of the server at ``address``."""
+    from footwork.cli.scripted_player import play
     from footwork.protocol.client import Client
 
     log(f"a scripted player steers for {seconds:g} s at {address}")
@@ -120,10 +125,14 @@ def _summary(bundle: Bundle, server: Mapping[str, Any], played: Played) -> dict[
 
 
 def _percentiles(values: Sequence[float]) -> dict[str, float]:
-    p50, p99 = np.percentile(values, [50, 99]) if values else (0.0, 0.0)
-    return {"p50": float(p50), "p99": float(p99)}
+    return {"p50": _percentile(values, 50), "p99": _percentile(values, 99)}
 
 
 def _error(values: Sequence[float]) -> dict[str, float]:
-    mean, p95 = (np.mean(values), np.percentile(values, 95)) if values else (0.0, 0.0)
-    return {"mean": float(mean), "p95": float(p95)}
+    return {"mean": fmean(values) if values else 0.0, "p95": _percentile(values, 95)}
+
+
+def _percentile(values: Sequence[float], percent: int) -> float:
+    import numpy as np
+
+    return float(np.percentile(values, percent)) if values else 0.0

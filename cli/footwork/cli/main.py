@@ -7,17 +7,22 @@ from importlib.metadata import version
 from cyclopts import App
 from cyclopts.exceptions import CycloptsError
 
+from footwork.cli.build import build
+from footwork.cli.demo import demo
+from footwork.cli.inspect import inspect
+from footwork.cli.score import score
+from footwork.cli.serve import serve
 from footwork.errors import FootworkError
 
 BAD_INPUT = 2
 INTERRUPTED = 130
 
 app = App(name="footwork", version=version("footwork"), help="Motion capture to a character that responds.")
-app.command("footwork.cli.demo:demo")
-app.command("footwork.cli.build:build")
-app.command("footwork.cli.inspect:inspect")
-app.command("footwork.cli.serve:serve")
-app.command("footwork.cli.score:score")
+app.command(demo)
+app.command(build)
+app.command(inspect)
+app.command(serve)
+app.command(score)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -1,10 +1,15 @@
 """Motions named on the command line: a folder of capture, or the motions that footwork generates itself."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from footwork.errors import InputError
-from footwork.motion.clip import Clip
-from footwork.training.dataset import Dataset, load_clips
+
+if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help answers at once
+    from footwork.motion.clip import Clip
+    from footwork.training.dataset import Dataset
 
 EMBEDDED = "embedded:"
 
@@ -16,6 +21,8 @@ def load_motions(motions: str, labels: Path | None, ranges: Path | None, tables:
         InputError: for files that cannot be read, and for labels or ranges of embedded motions, which have none.
     """
     if not motions.startswith(EMBEDDED):
+        from footwork.training.dataset import load_clips
+
         return load_clips(Path(motions), labels=labels, ranges=ranges, tables=tables)
     if labels or ranges or tables:
         raise InputError("embedded motions bring their own labels and body", "--labels, --ranges or --table")
@@ -28,6 +35,7 @@ def embedded_dataset(name: str) -> Dataset:
     Raises:
         InputError: for a name that is neither ``locomotion`` nor ``fighting``.
     """
+    from footwork.training.dataset import Dataset
     from footwork.training.embedded import embedded_clips, fighting_clips
 
     generators = {"locomotion": embedded_clips, "fighting": fighting_clips}

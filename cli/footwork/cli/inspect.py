@@ -1,0 +1,66 @@
+"""``footwork inspect``: what is in a bundle, or in a folder of motions, in figures and pictures."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from footwork.cli.motions import EMBEDDED, load_motions
+from footwork.cli.output import emit, progress
+
+
+def inspect(
+    source: str,
+    /,
+    *,
+    plots: Path | None = None,
+    labels: Path | None = None,
+    ranges: Path | None = None,
+    table: tuple[Path, ...] = (),
+    json: Annotated[bool, Parameter(negative=())] = False,
+) -> None:
+    """Say what is in a bundle, or look at motions before a bundle is made of them.
+
+    Example: footwork inspect walker.footwork --plots pictures
+
+    Args:
+        source: A bundle, a folder of BVH or ASF/AMC files, embedded:locomotion or embedded:fighting.
+        plots: A folder to draw contact sheets and plots into.
+        labels: CSV file with set, file, start_frame, end_frame, label, for a folder.
+        ranges: CSV file with set, file, start_frame, end_frame, for a folder.
+        table: Name table of a skeleton of your own (TOML), for a folder; may be given several times.
+        json: Print the report as one JSON object.
+    """
+    with progress() as report_progress:
+        report_progress("reading", 0.0)
+        if source.startswith(EMBEDDED) or Path(source).is_dir():
+            report = _inspect_motions(source, plots, labels, ranges, table)
+        else:
+            report = _inspect_bundle(Path(source), plots)
+    emit(report, json, source)
+
+
+def _inspect_motions(
+    source: str, plots: Path | None, labels: Path | None, ranges: Path | None, table: tuple[Path, ...]
+) -> dict:
+    from footwork.study.contact_sheet import contact_sheets
+    from footwork.study.inspection import inspect_clips
+
+    dataset = load_motions(source, labels, ranges, table)
+    pictures = contact_sheets(plots, list(dataset.clips)) if plots else []
+    return inspect_clips(dataset.clips) | _about(dataset.attribution, pictures)
+
+
+def _inspect_bundle(path: Path, plots: Path | None) -> dict:
+    from footwork.motion.bundle import read_bundle
+    from footwork.study.inspection import inspect_bundle
+    from footwork.study.inspection_plots import inspection_plots
+
+    bundle = read_bundle(path)
+    pictures = inspection_plots(bundle, plots) if plots else []
+    return inspect_bundle(bundle) | _about(bundle.attribution, pictures)
+
+
+def _about(attribution: Sequence[str], pictures: Sequence[Path]) -> dict:
+    return {"attribution": list(attribution), "plots": [str(picture) for picture in pictures]}
