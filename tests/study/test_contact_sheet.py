@@ -41,9 +41,9 @@ def test_rows_wrap_and_columns_set_the_width(tmp_path):
 
 
 def test_one_file_a_clip_and_the_same_bytes_again(tmp_path):
-    clips = [standing(3, "a.bvh"), standing(3, "b.amc")]
+    clips = [standing(3, "a.bvh[0:3]"), standing(3, "../b.amc")]
     paths = contact_sheets(tmp_path / "new" / "folder", clips)
-    assert [path.name for path in paths] == ["a.png", "b.png"]
+    assert [path.name for path in paths] == ["a_bvh_0_3.png", "b_amc.png"]
     before = paths[0].read_bytes()
     assert contact_sheets(tmp_path / "again", clips)[0].read_bytes() == before
 

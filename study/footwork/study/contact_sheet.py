@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 from pathlib import Path
 from typing import Any, Literal
 
@@ -73,7 +74,12 @@ def contact_sheets(directory: str | os.PathLike, clips: list[Clip], view: View =
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"cannot be made ({error.strerror})", directory) from None
-    return [contact_sheet(directory / f"{Path(clip.name).stem}.png", clip, view=view) for clip in clips]
+    return [contact_sheet(directory / f"{_file_name(clip.name)}.png", clip, view=view) for clip in clips]
+
+
+def _file_name(name: str) -> str:
+    """A clip's name with nothing in it that a file's name may not hold: ``walk.bvh[0:60]`` is ``walk_bvh_0_60``."""
+    return re.sub(r"[^A-Za-z0-9-]+", "_", name).strip("_") or "clip"
 
 
 def clip_yaw(clip: Clip, places: NDArray) -> float:

@@ -95,11 +95,11 @@ class Canvas:
         self.edges.append(edge)
 
     def paint(self, axes: Any, line_width: float = 0.5) -> None:
-        """Draw all polygons on matplotlib axes."""
+        """Draw all polygons on matplotlib axes, above all lines there."""
         from matplotlib.collections import PolyCollection
 
         axes.add_collection(
-            PolyCollection(self.polygons, facecolors=self.fills, edgecolors=self.edges, linewidths=line_width)
+            PolyCollection(self.polygons, facecolors=self.fills, edgecolors=self.edges, linewidths=line_width, zorder=3)
         )
 
 

@@ -1,0 +1,121 @@
+"""What is in a bundle, or in clips before a bundle is made of them, as figures (JSON-able)."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+
+from footwork.controllers.steering import SteeringController
+from footwork.motion.bundle import Bundle
+from footwork.motion.clip import Clip
+from footwork.motion.graph import ARRAYS, MotionGraph
+from footwork.motion.table import PolicyTable
+from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
+from footwork.study.measures import TICK
+from footwork.study.responsiveness import SAMPLES, evenly, responsiveness
+
+
+def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
+    """Sizes, frames by label and behaviour, connectivity, responsiveness, tables, and where it all came from.
+
+    ``connectivity`` has the share of the source frames that the graph keeps, the mean number of edges from a node,
+    the share of ordered pairs of nodes (from sampled sources) with a way between them, and the seconds that the
+    shortest such ways take. ``responsiveness`` is that of the "steering" table, None without one.
+    """
+    graph = bundle.graph
+    sizes = {"graph": sum(getattr(graph, name).nbytes for name in ARRAYS)}
+    sizes |= {f"table {name}": table.values.nbytes for name, table in bundle.tables.items()}
+    steering = bundle.tables.get("steering")
+    return {
+        "digest": bundle.digest,
+        "clips": len(np.unique(graph.clip)),
+        "nodes": graph.node_count,
+        "edges": graph.edge_count,
+        "transitions": int((~graph.natural).sum()),
+        "bytes": sizes | {"total": sum(sizes.values())},
+        "joints": graph.skeleton.joint_count,
+        "labels": _counts(graph.labels, graph.label),
+        "behaviours": _counts(graph.behaviours, graph.behaviour),
+        "connectivity": _connectivity(bundle),
+        "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
+        "responsiveness": responsiveness(graph, SteeringController(graph, steering)) if steering else None,
+        "tables": {name: _table(table) for name, table in bundle.tables.items()},
+        "attribution": list(bundle.attribution),
+        "provenance": dict(bundle.provenance),
+    }
+
+
+def inspect_clips(clips: Sequence[Clip]) -> dict[str, Any]:
+    """How much motion there is, frames by label, share of frames in contact and foot slide, for each clip and all."""
+    labels = np.concatenate([clip.labels for clip in clips]) if clips else np.empty(0, dtype=str)
+    slides = [slide_of_clip(clip) for clip in clips]
+    return {
+        "clips": len(clips),
+        "frames": len(labels),
+        "seconds": sum(clip.seconds for clip in clips),
+        "labels": _words(labels),
+        "foot_slide_cm_s": sum(slides, Slide(0.0, 0.0)).cm_per_second,
+        "each": [
+            {
+                "name": clip.name,
+                "frames": clip.frame_count,
+                "seconds": clip.seconds,
+                "labels": _words(clip.labels),
+                "contact_share": float(clip.contacts.mean()) if clip.contacts.size else None,
+                "foot_slide_cm_s": slide.cm_per_second,
+            }
+            for clip, slide in zip(clips, slides, strict=True)
+        ],
+    }
+
+
+def _counts(names: Sequence[str], index: NDArray) -> dict[str, int]:
+    """How many entries each name has, and under "none" those with none or an empty name."""
+    counts = {name or "none": int((index == number).sum()) for number, name in enumerate(names)}
+    absent = int((index < 0).sum())
+    return counts | ({"none": counts.get("none", 0) + absent} if absent else {})
+
+
+def _words(labels: NDArray) -> dict[str, int]:
+    words, counts = np.unique(labels, return_counts=True)
+    return {str(word) or "none": int(count) for word, count in zip(words, counts, strict=True)}
+
+
+def _connectivity(bundle: Bundle) -> dict[str, float | None]:
+    graph, counts = bundle.graph, bundle.provenance.get("counts", {})
+    frames = counts.get("frames")
+    ticks = _shortest_ways(graph)
+    reached = np.isfinite(ticks)
+    return {
+        "scc_fraction": counts.get("scc_nodes", graph.node_count) / frames if frames else None,
+        "edges_per_node": graph.edge_count / graph.node_count,
+        "reachable_share": float(reached.mean()),
+        "mean_way_s": float(ticks[reached].mean() * TICK),
+        "longest_way_s": float(ticks[reached].max() * TICK),
+    }
+
+
+def _shortest_ways(graph: MotionGraph) -> NDArray[np.float64]:
+    """Ticks of the shortest ways from sampled nodes to all nodes, infinite where there is none.  # (samples, N)"""
+    shape = (graph.node_count, graph.node_count)
+    ways = csr_array((np.ones(graph.edge_count), graph.target, graph.edge_start), shape=shape)
+    return dijkstra(ways, indices=evenly(np.arange(graph.node_count), SAMPLES), unweighted=True)
+
+
+def _table(table: PolicyTable) -> dict[str, Any]:
+    task = table.task
+    return {
+        "behaviours": list(task.behaviours),
+        "heading_bins": task.heading_bins,
+        "states": int(table.values.size),
+        "discount": task.discount,
+        "heading_sigma_deg": float(np.degrees(task.heading_sigma)),
+        "smoothness_sigma": task.smoothness_sigma,
+        "sweeps": table.sweeps,
+        "residual": table.residual,
+        "converged": table.converged,
+        "greatest_value": float(table.values.max()),
+    }
