@@ -2,8 +2,9 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import TypeGuard
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -17,17 +18,40 @@ def emit(report: Mapping[str, object], as_json: bool, title: str) -> None:
     if as_json:
         print(json.dumps(report, allow_nan=False), flush=True)
         return
+    console = Console()
+    console.print(_fields(report, title))
+    for name, value in report.items():
+        if _is_rows(value):
+            console.print(_rows(value, name))
+
+
+def _is_rows(value: object) -> TypeGuard[Sequence[Mapping[str, object]]]:
+    return isinstance(value, list) and bool(value) and all(isinstance(row, Mapping) for row in value)
+
+
+def _fields(report: Mapping[str, object], title: str) -> Table:
     table = Table(title=title, show_header=False, title_justify="left")
     for name, value in _flattened(report):
         table.add_row(name, value)
-    Console().print(table)
+    return table
+
+
+def _rows(rows: Sequence[Mapping[str, object]], title: str) -> Table:
+    """A table of a list of records, one a line, without what is nested inside them: --json has it all."""
+    lines = [dict(_flattened({k: v for k, v in row.items() if not isinstance(v, Mapping)})) for row in rows]
+    names = list(dict.fromkeys(name for line in lines for name in line))
+    table = Table(*names, title=title, title_justify="left")
+    for line in lines:
+        table.add_row(*(line.get(name, "") for name in names))
+    return table
 
 
 def _flattened(report: Mapping[str, object], prefix: str = "") -> Iterator[tuple[str, str]]:
+    """Names and printed values of all but the lists of records, those of inner records joined by dots."""
     for name, value in report.items():
         if isinstance(value, Mapping):
             yield from _flattened(value, f"{prefix}{name}.")
-        else:
+        elif not _is_rows(value):
             yield f"{prefix}{name}", f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
