@@ -94,12 +94,14 @@ class Canvas:
         self.fills.append(fill)
         self.edges.append(edge)
 
-    def paint(self, axes: Any, line_width: float = 0.5) -> None:
-        """Draw all polygons on matplotlib axes, above all lines there."""
+    def paint(self, axes: Any, line_width: float = 0.5, zorder: float = 3.0) -> None:
+        """Draw all polygons on matplotlib axes, by default above all lines there."""
         from matplotlib.collections import PolyCollection
 
         axes.add_collection(
-            PolyCollection(self.polygons, facecolors=self.fills, edgecolors=self.edges, linewidths=line_width, zorder=3)
+            PolyCollection(
+                self.polygons, facecolors=self.fills, edgecolors=self.edges, linewidths=line_width, zorder=zorder
+            )
         )
 
 

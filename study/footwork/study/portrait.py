@@ -54,6 +54,7 @@ def draw_character(
     _frame(axes, camera.project(places[chosen])[0], size[0] / size[1])
     _draw_grid(axes, camera, places[:, 0])
     _draw_trail(axes, camera, places[:, 0])
+    _shadows(clip, chosen, places, turns, camera).paint(axes, zorder=1.0)
     _figures(clip, chosen, places, turns, camera).paint(axes, line_width=0.8)
     return drawing.save(figure, path)
 
@@ -103,7 +104,7 @@ def _draw_fading(axes: Any, camera: Camera, line: NDArray, root: NDArray, colour
     strength = np.clip(1.2 - away / 3.0, 0.0, 1.0)[:-1]
     picture = camera.project(line)[0]
     pieces = np.stack([picture[:-1], picture[1:]], axis=1)
-    axes.add_collection(LineCollection(list(pieces), colors=colour, alpha=strength, linewidths=0.8))
+    axes.add_collection(LineCollection(list(pieces), colors=colour, alpha=strength, linewidths=0.8, zorder=0.5))
 
 
 def _draw_trail(axes: Any, camera: Camera, root: NDArray) -> None:
@@ -112,14 +113,19 @@ def _draw_trail(axes: Any, camera: Camera, root: NDArray) -> None:
     axes.plot(*trail.T, color=drawing.mix(drawing.LABEL_COLOURS["walk"], drawing.PAPER, 0.1), lw=2.5)
 
 
-def _figures(clip: Clip, chosen: NDArray, places: NDArray, turns: NDArray, camera: Camera) -> Canvas:
+def _shadows(clip: Clip, chosen: NDArray, places: NDArray, turns: NDArray, camera: Camera) -> Canvas:
     canvas, parts = Canvas(), body_parts(clip.skeleton)
     for grow, shade in ((0.06, 0.05), (0.035, 0.1), (0.01, 0.16), (-0.01, 0.22)):
         colour = drawing.mix(drawing.PAPER, drawing.INK, shade)
         for frame in chosen:
             drawing.add_shadow(canvas, parts, places[frame], turns[frame], camera, grow=grow, colour=colour)
+    return canvas
+
+
+def _figures(clip: Clip, chosen: NDArray, places: NDArray, turns: NDArray, camera: Camera) -> Canvas:
+    canvas, parts = Canvas(), body_parts(clip.skeleton)
     depth = camera.project(places[chosen, 0])[1]
     for index in np.argsort(depth)[::-1]:
-        fade = 0.5 * (1.0 - (index + 1) / len(chosen))
+        fade = 0.4 * (1.0 - (index + 1) / len(chosen))
         drawing.add_figure(canvas, parts, places[chosen[index]], turns[chosen[index]], camera, fade=fade)
     return canvas
