@@ -8,10 +8,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.threads import THREADS
 from footwork.motion.window import RADIUS
 from footwork.motion.window_costs import window_costs
 
-THREADS = 2
 # Frames a block is long and wide: its products stay in the cache, and are small enough that the linear algebra
 # library computes each on the thread that asks for it, so that our threads never wait for the library's.
 _BLOCK = 64

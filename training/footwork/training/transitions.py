@@ -8,7 +8,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-THREADS = 2
+from footwork.motion.threads import THREADS
+
 MIN_GAP = 15  # frames: two frames of one clip nearer than 0.5 s are no transition (papers.md 2)
 
 

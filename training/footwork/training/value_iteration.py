@@ -14,8 +14,8 @@ from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
+from footwork.motion.threads import THREADS
 
-THREADS = 2
 TOLERANCE = 1e-3
 MAX_SWEEPS = 1500
 
