@@ -38,7 +38,7 @@ class FootTouches:
     Args:
         swivel: added yaw, radians.  # (F,)
         pitch: added pitch, toes up positive, radians.  # (F,)
-        offset: added place in the foot's own directions (left, up, ahead), metres.  # (F, 3)
+        offset: added place in the heading's directions (left, up, ahead), metres.  # (F, 3)
     """
 
     swivel: NDArray[np.float64]
@@ -66,7 +66,12 @@ def _foot(plan: Plan, body: Skeleton, foot: int, touch: FootTouches) -> tuple[ND
     heel = np.array([0.0, -SOLE, -ball[2] - _HEEL])
     from_heel = quaternion.rotate(yaw, heel) + quaternion.rotate(turn, np.array([0.0, ankle_height, _HEEL]))
     ground = np.stack([place[:, 0], SOLE + height, place[:, 1]], axis=-1)
-    ankle = ground + from_ball + on_heel[:, None] * (from_heel - from_ball) + quaternion.rotate(yaw, touch.offset)
+    ankle = (
+        ground
+        + from_ball
+        + on_heel[:, None] * (from_heel - from_ball)
+        + quaternion.rotate(quaternion.from_yaw(plan.heading), touch.offset)
+    )
     toes = _pitched(-np.minimum(pitch, 0.0) * toe_share)
     return ankle, turn, toes
 
@@ -86,7 +91,7 @@ def _pitch_keys(contacts: tuple[Contact, ...]) -> list[tuple[float, float]]:
 def _standing_keys(contact: Contact) -> list[tuple[float, float]]:
     """From the strike to flat, and from flat to the push, about the ball."""
     length = contact.end - contact.start
-    roll, peel = min(_ROLL, 0.3 * length), min(contact.next_gait.peel, 0.5 * length)
+    roll, peel = min(_ROLL, 0.3 * length), min(contact.next_gait.peel, 0.6 * length)
     flat = [(contact.start + roll, 0.0), (contact.end - peel, 0.0)]
     return [(contact.start, contact.strike), *flat, (contact.end, contact.push)]
 

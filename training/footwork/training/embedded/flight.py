@@ -1,7 +1,8 @@
-"""Flights: while no foot stands, the centre of mass falls at exactly g, whatever the limbs do.
+"""Flights: while no foot stands, the centre of mass flies a parabola, whatever the limbs do.
 
-Before and after a flight the height of the centre of mass runs along fifth-degree curves that leave the ground
-with the flight's speed and with -g, so that the force of the ground grows from nothing and ends in nothing.
+Before and after a flight the centre of mass runs along fifth-degree curves that have the flight's speed and
+acceleration at its ends, so that the force of the ground grows from nothing and ends in nothing. A flight itself is
+such a curve too: with gravity at both ends it is the parabola.
 """
 
 from collections.abc import Callable
@@ -25,7 +26,7 @@ def fly(
     root: NDArray[np.float64],
     pose: Callable[[NDArray[np.float64]], NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """The root (F, 3), moved up and down so that the centre of mass obeys gravity in every flight.
+    """The root (F, 3), moved so that the centre of mass flies a parabola in every flight.
 
     ``pose`` gives the local rotations for a root: the feet stay where they are, so moving the root bends the legs,
     which moves the centre of mass in turn; a few rounds settle it.
@@ -33,49 +34,52 @@ def fly(
     flights = plan.flights()
     if not flights:
         return root
-    height = centre_of_mass(body, root, pose(root))[:, 1]
-    target = _target(plan, flights, height)
+    centre = centre_of_mass(body, root, pose(root))
+    target = np.stack([_target(plan, _along(plan, flights, centre, axis), centre[:, axis]) for axis in range(3)], -1)
     root = root.copy()
     for _ in range(_ROUNDS):
-        root[:, 1] += target - centre_of_mass(body, root, pose(root))[:, 1]
+        root += target - centre_of_mass(body, root, pose(root))
     return root
 
 
-def _target(plan: Plan, flights: list[tuple[float, float]], height: NDArray[np.float64]) -> NDArray[np.float64]:
-    times, target = plan.times, height.copy()
-    speed = np.gradient(height, 1.0 / FPS)
-    ends = [(start, end, height[0] + _extra(plan, end)) for start, end in flights]
-    for start, end, level in ends:
-        airborne = (times >= start) & (times <= end)
-        target[airborne] = level + 0.5 * GRAVITY * (times[airborne] - start) * (end - times[airborne])
-    for before, after in zip([None, *ends], [*ends, None], strict=True):
-        begin = _landing(before) if before else None
-        finish = _leaving(after) if after else None
-        if begin and finish and finish[0] - begin[0] < _PUSH + _ABSORB:
-            _fill(times, target, begin, finish)
+State = tuple[float, float, float, float]  # time, place, speed, acceleration: along one axis
+
+
+def _along(
+    plan: Plan, flights: list[tuple[float, float]], centre: NDArray[np.float64], axis: int
+) -> list[tuple[State, State]]:
+    """Each flight's start and end along one axis: level ends and gravity upright, even speed on the ground."""
+    states = []
+    for start, end in flights:
+        if axis == 1:
+            level, speed = centre[0, 1] + _extra(plan, end), 0.5 * GRAVITY * (end - start)
+            states.append(((start, level, speed, -GRAVITY), (end, level, -speed, -GRAVITY)))
+        else:
+            first, last = np.interp([start, end], plan.times, centre[:, axis])
+            speed = (last - first) / (end - start)
+            states.append(((start, first, speed, 0.0), (end, last, speed, 0.0)))
+    return states
+
+
+def _target(plan: Plan, flights: list[tuple[State, State]], base: NDArray[np.float64]) -> NDArray[np.float64]:
+    """``base`` (F,) with the flights in it, and smooth ways into and out of them."""
+    times, target = plan.times, base.copy()
+    speed = np.gradient(base, 1.0 / FPS)
+
+    def on_base(at: float) -> State:
+        return at, float(np.interp(at, times, base)), float(np.interp(at, times, speed)), 0.0
+
+    for takeoff, landing in flights:
+        _fill(times, target, takeoff, landing)
+    for before, after in zip([None, *flights], [*flights, None], strict=True):
+        if before and after and after[0][0] - before[1][0] < _PUSH + _ABSORB:
+            _fill(times, target, before[1], after[0])
             continue
-        if begin:
-            _fill(times, target, begin, _on_base(times, height, speed, begin[0] + _ABSORB))
-        if finish:
-            _fill(times, target, _on_base(times, height, speed, finish[0] - _PUSH), finish)
+        if before:
+            _fill(times, target, before[1], on_base(before[1][0] + _ABSORB))
+        if after:
+            _fill(times, target, on_base(after[0][0] - _PUSH), after[0])
     return target
-
-
-State = tuple[float, float, float, float]  # time, height, speed, acceleration
-
-
-def _landing(flight: tuple[float, float, float]) -> State:
-    start, end, level = flight
-    return end, level, -0.5 * GRAVITY * (end - start), -GRAVITY
-
-
-def _leaving(flight: tuple[float, float, float]) -> State:
-    start, end, level = flight
-    return start, level, 0.5 * GRAVITY * (end - start), -GRAVITY
-
-
-def _on_base(times: NDArray[np.float64], height: NDArray[np.float64], speed: NDArray[np.float64], at: float) -> State:
-    return at, float(np.interp(at, times, height)), float(np.interp(at, times, speed)), 0.0
 
 
 def _extra(plan: Plan, landing: float) -> float:
@@ -84,5 +88,5 @@ def _extra(plan: Plan, landing: float) -> float:
 
 
 def _fill(times: NDArray[np.float64], target: NDArray[np.float64], start: State, end: State) -> None:
-    inside = (times > start[0]) & (times < end[0])
+    inside = (times >= start[0]) & (times <= end[0])
     target[inside] = quintic(start, end, times[inside])

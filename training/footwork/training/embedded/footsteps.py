@@ -34,6 +34,7 @@ class Gait:
         peel: time over which the heel lifts before the toes, seconds.
         arrive: speed of the foot at landing, as a share of its mean speed in the swing.
         arc: exponents of the swing's rise and fall (see ``curves.hump``).
+        home: whether feet are set down at the planner's homes rather than by ``half_width``, ``ahead`` and ``toe_out``.
         run: 0 for a walk's arms and trunk, 1 for a run's.
     """
 
@@ -48,6 +49,7 @@ class Gait:
     peel: float
     arrive: float = 0.0
     arc: tuple[float, float] = (2.0, 3.0)
+    home: bool = False
     run: float = 0.0
 
 
@@ -56,12 +58,13 @@ def _degrees(strike: float, push: float, trail: float, middle: float) -> tuple[f
 
 
 # width, ahead, toe-out, then strike, push, trail and middle, then rise and peel
-STAND = Gait(0.085, 0.11, math.radians(8), *_degrees(0, 0, 0, 0), 0.0, 0.2)
+STAND = Gait(0.085, 0.11, math.radians(8), *_degrees(0, 0, 0, 0), 0.0, 0.2, home=True)
 WALK = Gait(0.055, 0.05, math.radians(6), *_degrees(20, -52, -60, -12), 0.055, 0.28, arrive=0.35)
-SHUFFLE = Gait(0.085, 0.11, math.radians(8), *_degrees(0, -22, -24, -6), 0.07, 0.2)
-RUN = Gait(0.035, -0.005, math.radians(4), *_degrees(6, -48, -85, -45), 0.18, 0.13, arrive=0.5, run=1.0)
-HOP = Gait(0.085, 0.11, math.radians(8), *_degrees(-16, -50, -52, -34), 0.25, 0.16, arc=(1.15, 1.15))
-LEAP = Gait(0.05, 0.04, math.radians(5), *_degrees(6, -48, -60, -30), 0.16, 0.16, arrive=0.5, run=0.4)
+SHUFFLE = Gait(0.085, 0.11, math.radians(8), *_degrees(0, -22, -24, -6), 0.07, 0.2, home=True)
+RUN = Gait(0.035, -0.005, math.radians(4), *_degrees(6, -48, -85, -45), 0.18, 0.18, arrive=0.5, run=1.0)
+GUARD_STEP = Gait(0.0, 0.0, 0.0, *_degrees(0, -12, -10, 0), 0.05, 0.1, home=True)
+HOP = Gait(0.085, 0.11, math.radians(8), *_degrees(-16, -50, -52, -34), 0.25, 0.16, arc=(1.15, 1.15), home=True)
+LEAP = Gait(0.05, 0.04, math.radians(5), *_degrees(6, -48, -75, -54), 0.16, 0.24, arrive=0.5, run=0.4)
 
 
 @dataclass(frozen=True)
@@ -289,9 +292,7 @@ class Planner:
 
     def _place(self, foot: int, gait: Gait, path: NDArray[np.float64], heading: float) -> tuple[float, float, float]:
         side = 1.0 if foot == LEFT else -1.0
-        home = (
-            self.homes[foot] if gait in (STAND, SHUFFLE) else (side * gait.half_width, gait.ahead, side * gait.toe_out)
-        )
+        home = self.homes[foot] if gait.home else (side * gait.half_width, gait.ahead, side * gait.toe_out)
         left, ahead, yaw = home
         x = path[0] + left * math.cos(heading) + ahead * math.sin(heading)
         z = path[1] + ahead * math.cos(heading) - left * math.sin(heading)

@@ -5,6 +5,7 @@ them holds together.
 """
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
@@ -176,39 +177,64 @@ def _jump() -> Written:
     back: Keys = [(time, 0.3 * value) for time, value in drop]
     elbow: Keys = [(up - 0.6, 0.0), (up - 0.25, 0.2), (up, 0.7), (down, 0.5), (down + 0.6, 0.0)]
     curves = {"drop": drop, "back": back, "lean": lean, "pelvis_pitch": [(t, 0.4 * v) for t, v in lean]}
+    heels: Keys = [(up - 0.6, 0.0), (up - 0.25, -0.10), (up, 0.0), (down + 0.1, 0.0)]
+    curves |= {f"{side}_toe": heels for side in ("left", "right")}
     curves |= {f"{side}_arm": arms for side in ("left", "right")} | {
         f"{side}_elbow": elbow for side in ("left", "right")
     }
     return planner, Gesture(curves)
 
 
-def _leap(planner: Planner, foot: int, pace: Pace, flight: float, swing: float) -> tuple[int, Gesture]:
-    """One long flight that lands on ``foot``, and the step out of it."""
+class Leap(NamedTuple):
+    """A long flight: its step and the one out of it, the time in the air, the leading foot's swing (seconds), and
+    the height of the centre of mass above standing at both ends (metres)."""
+
+    step: Pace
+    onward: Pace
+    flight: float
+    swing: float
+    takeoff: float
+
+
+_WALKING_LEAP = Leap(Pace(0.64, 1.02), Pace(0.46, 0.78), 0.34, 0.58, -0.035)
+_RUNNING_LEAP = Leap(Pace(0.57, 1.70), Pace(0.37, 1.08), 0.30, 0.66, -0.015)
+
+
+def _leap(planner: Planner, foot: int, leap: Leap) -> Gesture:
+    """A leap that lands on ``foot``, and the step out of it with the other one."""
     start = planner.now
-    planner.step(foot, *pace, gait=LEAP, swing=swing, label="jump", takeoff=0.02)
+    planner.step(foot, *leap.step, gait=LEAP, swing=leap.swing, label="jump", takeoff=leap.takeoff)
     land = planner.now
-    planner.step(other(foot), 0.46, 0.78, gait=LEAP, swing=0.46 + flight, label="jump")
-    drop: Keys = [(start - 0.2, 0.0), (start + 0.1, 0.05), (land - flight, 0.0)]
-    spread: Keys = [(start, 0.0), (land - 0.5 * flight, 0.45), (land + 0.3, 0.0)]
-    return foot, Gesture({"drop": drop, "left_spread": spread, "right_spread": spread})
+    planner.step(other(foot), *leap.onward, gait=LEAP, swing=leap.onward.seconds + leap.flight, label="jump")
+    drop: Keys = [(start - 0.2, 0.0), (start + 0.1, 0.05), (land - leap.flight, 0.0)]
+    spread: Keys = [(start, 0.0), (land - 0.5 * leap.flight, 0.45), (land + 0.3, 0.0)]
+    return Gesture({"drop": drop, "left_spread": spread, "right_spread": spread})
 
 
 def _walk_leap() -> Written:
     planner, foot = _enter_walk(RIGHT)
-    foot, gesture = _leap(planner, foot, Pace(0.64, 1.05), 0.34, 0.58)
+    gesture = _leap(planner, foot, _WALKING_LEAP)
     return _leave_walk(planner, foot), gesture
 
 
 def _run_leap() -> Written:
     planner, foot = _enter_run(RIGHT)
-    foot, gesture = _leap(planner, foot, Pace(0.58, 1.72), 0.32, 0.66)
+    gesture = _leap(planner, foot, _RUNNING_LEAP)
     return _leave_run(planner, foot), gesture
 
 
 def _ducking(down: float, low: float, up: float, end: float) -> Gesture:
     """Bend at hips and knees between ``down`` and ``end``, lowest from ``low`` to ``up`` (seconds)."""
     shape: Keys = [(down, 0.0), (low, 1.0), (up, 1.0), (end, 0.0)]
-    sizes = {"drop": 0.21, "back": 0.07, "lean": 0.85, "pelvis_pitch": 0.4, "nod": 0.15}
+    sizes = {
+        "drop": 0.21,
+        "back": 0.07,
+        "lean": 0.85,
+        "pelvis_pitch": 0.4,
+        "nod": 0.15,
+        "left_toe": -0.08,
+        "right_toe": -0.08,
+    }
     sizes |= {"left_elbow": 0.5, "right_elbow": 0.5, "left_arm": 0.15, "right_arm": 0.15}
     return Gesture({name: [(time, size * share) for time, share in shape] for name, size in sizes.items()})
 
@@ -234,7 +260,15 @@ def _pick() -> Written:
     start = planner.now
     planner.go(2.3, label="pick").stand(_REST)
     shape: Keys = [(start, 0.0), (start + 0.9, 1.0), (start + 1.25, 1.0), (start + 2.25, 0.0)]
-    sizes = {"drop": 0.46, "back": 0.12, "lean": 1.05, "pelvis_pitch": 0.55, "nod": 0.75}
+    sizes = {
+        "drop": 0.46,
+        "back": 0.12,
+        "lean": 1.05,
+        "pelvis_pitch": 0.55,
+        "nod": 0.75,
+        "left_toe": -0.22,
+        "right_toe": -0.22,
+    }
     for sign, side in ((1.0, "left"), (-1.0, "right")):
         sizes |= {f"{side}_hand": 1.0}
         sizes |= {f"{side}_hand_left": 0.13 * sign, f"{side}_hand_up": -0.42, f"{side}_hand_ahead": 0.34}
