@@ -35,6 +35,13 @@ def plane_normal(places, limb):
     return quaternion.normalise(np.cross(middle - root, tip - middle))
 
 
+def clearly_bent(places, limb):
+    """Frames in which the limb is far enough from straight to have a plane of its own."""
+    middle, tip = (places[:, joint] - places[:, limb.upper] for joint in (limb.lower, limb.tip))
+    away = np.linalg.norm(np.cross(middle, quaternion.normalise(tip)), axis=-1)
+    return away > 0.02 * np.linalg.norm(middle, axis=-1)
+
+
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10**6), st.sampled_from(LIMBS))
 def test_a_reachable_target_is_met_and_the_tip_keeps_its_rotation(seed, limb):
@@ -75,7 +82,8 @@ def test_without_a_pole_a_target_in_the_bending_plane_keeps_the_plane(seed, limb
     turned = quaternion.rotate(quaternion.from_rotation_vector(angle * normal), along)
     target = places[:, limb.upper] + turned * 0.8 * sum(bone_lengths(limb))
     new_places, _ = forward(BODY, root, place_limb(BODY, root, rotations, limb, target))
-    np.testing.assert_allclose(plane_normal(new_places, limb), normal, atol=1e-6)
+    bent = clearly_bent(places, limb)
+    np.testing.assert_allclose(plane_normal(new_places, limb)[bent], normal[bent], atol=1e-6)
 
 
 @pytest.mark.parametrize("limb", LIMBS)

@@ -1,0 +1,21 @@
+"""The picture at the top of the README: python examples/picture.py BUNDLE PNG
+
+A character walks, turns left, runs and comes back, as it is told to, and is drawn along its way.
+"""
+
+import sys
+
+from footwork.motion.bundle import read_bundle
+from footwork.study.portrait import draw_character
+from footwork.study.steered_clip import steered_clip
+
+ORDERS = [(3.0, 0.0, "walk"), (2.5, 90.0, "walk"), (2.0, 90.0, "run"), (1.0, 0.0, "run"), (2.0, 0.0, "stop")]
+
+
+def main(bundle: str, picture: str) -> None:
+    draw_character(picture, steered_clip(read_bundle(bundle), ORDERS))
+    print(f"drew {picture}")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:3])
