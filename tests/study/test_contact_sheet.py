@@ -1,4 +1,5 @@
 import struct
+import sys
 
 import numpy as np
 import pytest
@@ -81,3 +82,9 @@ def test_perspective_shrinks_what_is_twice_as_far_to_half():
     places, _, scale = Camera(yaw=0.0, distance=4.0).project([[0.0, 1.0, 0.0], [0.0, 1.0, 4.0]])
     np.testing.assert_allclose(scale, [1.0, 0.5])
     np.testing.assert_allclose(places[:, 1], [1.0, 0.5])
+
+
+def test_without_matplotlib_it_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(InputError, match=r"pip install footwork\[plots\]"):
+        contact_sheet(tmp_path / "sheet.png", standing())

@@ -143,7 +143,7 @@ class _Sheet:
             axes.plot([0, width], [y, y], color=drawing.mix(drawing.GROUND, drawing.INK, 0.3), lw=0.6)
 
     def _add_shadows(self, canvas: Canvas) -> None:
-        for grow, shade in ((0.05, 0.05), (0.02, 0.11), (-0.01, 0.18)):
+        for grow, shade in ((0.04, 0.07), (0.0, 0.16)):
             colour = drawing.mix(drawing.GROUND, drawing.INK, shade)
             for index in range(len(self.frames)):
                 drawing.add_shadow(
@@ -152,7 +152,7 @@ class _Sheet:
                     self.places[index],
                     self.turns[index],
                     self.camera,
-                    grow=max(grow, -0.01),
+                    grow=grow,
                     colour=colour,
                     shift=self.cell_origin(index),
                 )

@@ -28,6 +28,7 @@ LABEL_COLOURS = {
 }
 _SPARE_COLOURS = ("#b5838d", "#6d9dc5", "#c08552", "#7a9e4f", "#d17ba0", "#5b6c9d", "#a3a847", "#bc6c4a")
 _CIRCLE = np.stack([np.cos(np.linspace(0, 2 * np.pi, 20, False)), np.sin(np.linspace(0, 2 * np.pi, 20, False))], axis=1)
+_GROUND_CIRCLE = np.stack([_CIRCLE[:, 0], np.zeros(len(_CIRCLE)), _CIRCLE[:, 1]], axis=1)
 _LIGHT = np.array([-0.25, 0.35])
 
 
@@ -164,16 +165,12 @@ def add_shadow(
     """Paint one layer of a soft shadow: the body pressed flat onto the ground, ``grow`` metres wider."""
     balls = ball_places(parts, places, turns)
     # the light falls from above and a little from the left and the front
-    ground = np.stack(
-        [balls[:, 0] - 0.12 * balls[:, 1], np.zeros(len(balls)), balls[:, 2] - 0.12 * balls[:, 1]], axis=1
-    )
+    ground = (balls - 0.12 * balls[:, 1:2]) * [1.0, 0.0, 1.0]
+    radii = np.array([ball.radius for part in parts for ball in part.balls]) + grow
+    rings = camera.project(ground[:, None] + radii[:, None, None] * _GROUND_CIRCLE)[0] + shift
     start = 0
     for part in parts:
-        span = slice(start, start + len(part.balls))
-        start = span.stop
-        radii = np.array([ball.radius for ball in part.balls]) + grow
-        round_ = np.stack([_CIRCLE[:, 0], np.zeros(len(_CIRCLE)), _CIRCLE[:, 1]], axis=1)
-        flat = (ground[span][:, None, :] + radii[:, None, None] * round_).reshape(-1, 3)
-        picture = camera.project(flat)[0] + shift
-        if np.ptp(picture[:, 1]) > 1e-6:
+        picture = rings[start : start + len(part.balls)].reshape(-1, 2)
+        start += len(part.balls)
+        if np.ptp(picture[:, 1]) > 1e-6:  # seen from the level it has no area
             canvas.add(picture[ConvexHull(picture).vertices], colour)
