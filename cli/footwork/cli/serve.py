@@ -1,7 +1,6 @@
 """``footwork serve``: the server."""
 
 import math
-import signal
 import time
 from pathlib import Path
 from typing import Annotated
@@ -35,11 +34,11 @@ def serve(
     """
     from footwork.motion.bundle import read_bundle
     from footwork.runtime.server import Server
+    from footwork.runtime.signals import stopped_by_signals
 
     server = Server(read_bundle(bundle), bind=bind, rate=rate, inertialise=inertialise)
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: server.stop())
-    log(f"listening on {server.address}")
     end = math.inf if seconds is None else time.monotonic() + seconds
-    server.run(until=lambda: time.monotonic() >= end)
+    with stopped_by_signals(server):
+        log(f"listening on {server.address}")
+        server.run(until=lambda: time.monotonic() >= end)
     emit(server.summary(), json, f"{server.address}")

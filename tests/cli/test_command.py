@@ -1,0 +1,161 @@
+"""The command as a user meets it: JSON alone on stdout, bad input as one line and exit status 2."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from footwork.motion.body import default_body
+from footwork.motion.bundle import read_bundle
+from footwork.motion.bvh import write_bvh
+from footwork.motion.clip import Clip
+from footwork.training.embedded import embedded_clips
+
+CLIPS = ("idle", "walk_normal", "turn_90_left", "turn_90_right")
+
+
+def footwork(*arguments: object, status: int = 0) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "footwork.cli.main", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=100)
+    assert done.returncode == status, done.stderr
+    assert "Traceback" not in done.stderr
+    return done
+
+
+@pytest.fixture(scope="module")
+def captures(tmp_path_factory):
+    """A folder of BVH files with their labels, as a user would have it."""
+    folder = tmp_path_factory.mktemp("captures")
+    rows = ["set,file,start_frame,end_frame,label"]
+    for clip in embedded_clips():
+        if clip.name in CLIPS:
+            write_bvh(folder / f"{clip.name}.bvh", clip)
+            rows += [f"captures,{clip.name}.bvh,{k},{k + 1},{label}" for k, label in enumerate(clip.labels)]
+    labels = folder.parent / "labels.csv"
+    labels.write_text("\n".join(rows).replace("captures,", f"{folder.name},") + "\n")
+    return folder, labels
+
+
+@pytest.fixture(scope="module")
+def bundle(captures):
+    folder, labels = captures
+    path = folder.parent / "walker.footwork"
+    report = json.loads(footwork("build", folder, "--labels", labels, "--out", path, "--json").stdout)
+    return path, report
+
+
+def test_build_reports_what_it_did(bundle):
+    path, report = bundle
+    assert set(report) >= {"frames", "nodes", "edges", "scc_nodes", "scc_fraction", "threshold", "seconds", "digest"}
+    assert set(report["seconds"]) == {"read", "metric", "graph", "policy", "total"}
+    assert report["policy"]["converged"] is True
+    assert report["digest"] == read_bundle(path).digest
+    assert 0 < report["scc_nodes"] <= report["nodes"] == report["frames"]
+
+
+def test_building_twice_gives_the_same_bytes(captures, bundle, tmp_path):
+    folder, labels = captures
+    footwork("build", folder, "--labels", labels, "--out", tmp_path / "again.footwork")
+    assert (tmp_path / "again.footwork").read_bytes() == bundle[0].read_bytes()
+
+
+def test_inspect_says_what_is_in_a_bundle_and_draws_it(bundle, tmp_path):
+    report = json.loads(footwork("inspect", bundle[0], "--plots", tmp_path / "plots", "--json").stdout)
+    assert report["nodes"] == bundle[1]["scc_nodes"]
+    assert report["plots"]
+    assert all(Path(picture).read_bytes().startswith(b"\x89PNG") for picture in report["plots"])
+
+
+def test_inspect_looks_at_motions_before_anything_is_built(captures):
+    folder, labels = captures
+    report = json.loads(footwork("inspect", folder, "--labels", labels, "--json").stdout)
+    assert report["clips"] == len(CLIPS)
+    assert report["labels"]["walk"] > 0
+
+
+def test_score_replays_traces(bundle, tmp_path):
+    rows = ["tick,forward,strafe,run,yaw_delta_deg,attack,use"]
+    rows += [f"{tick},1,0,0,{1.40625 if 100 < tick < 160 else 0},0,0" for tick in range(350)]
+    (tmp_path / "trace.csv").write_text("\n".join(rows) + "\n")
+    report = json.loads(footwork("score", bundle[0], "--traces", tmp_path, "--json").stdout)
+    assert report["total"] == pytest.approx(report["control"] * report["transition"])
+    assert len(report["traces"]) == 1
+
+
+def test_demo_steers_over_a_socket(tmp_path):
+    done = footwork("demo", "--headless", "--seconds", "2", "--cache", tmp_path, "--json")
+    report = json.loads(done.stdout)
+    fields = {"frames", "nodes", "edges", "scc_fraction", "ticks", "late_ticks"}
+    assert set(report) >= fields | {"tick_us", "command_to_pose_ms", "heading_error_deg"}
+    assert report["ticks"] >= 55
+    assert report["travelled_m"] > 0.5
+    assert 0.0 < report["command_to_pose_ms"]["p50"] < 1000.0
+
+
+def test_a_damaged_bundle_in_the_cache_is_built_anew(tmp_path):
+    footwork("demo", "--headless", "--seconds", "0.5", "--cache", tmp_path)
+    [kept] = tmp_path.glob("*.footwork")
+    whole = kept.read_bytes()
+    kept.write_bytes(whole[:-7])
+    assert "building anew" in footwork("demo", "--headless", "--seconds", "0.5", "--cache", tmp_path).stderr
+    assert kept.read_bytes() == whole
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("build", "/no/such/folder", "--out", "x.footwork"), "/no/such/folder"),
+        (("build", "embedded:dancing", "--out", "x.footwork"), "there are locomotion, fighting"),
+        (("build", "embedded:locomotion", "--out", "/no/such/folder/x.footwork"), "--out: no folder"),
+        (("build", "embedded:locomotion", "--out", "x.footwork", "--graph", "round"), "there is standard"),
+        (("build", "embedded:locomotion", "--out", "x.footwork", "--threshold", "nan"), "expected a positive number"),
+        (("build", "embedded:locomotion", "--out", "x.footwork", "--discount", "1"), "expected 0 <= discount < 1"),
+        (("build", "embedded:locomotion"), "--out"),
+        (("inspect", "/no/such/bundle"), "/no/such/bundle"),
+        (("serve", "/no/such/bundle"), "/no/such/bundle"),
+        (("score", "/no/such/bundle", "--traces", "/no/such/traces"), "/no/such"),
+        (("demo", "--seconds", "-1"), "--seconds"),
+        (("jump",), "jump"),
+    ],
+)
+def test_bad_input_is_one_line_and_status_two(arguments, message):
+    done = footwork(*arguments, status=2)
+    assert message in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert done.stdout == ""
+
+
+def test_a_threshold_that_connects_nothing_is_answered_with_one_that_would(captures, tmp_path):
+    folder, labels = captures
+    out = tmp_path / "x.footwork"
+    done = footwork("build", folder, "--labels", labels, "--out", out, "--threshold", "1e-9", status=2)
+    assert "a threshold of" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("rate", ["0", "50"])
+def test_serve_refuses_a_rate_it_cannot_keep(bundle, rate):
+    assert "expected one of (30, 60, 120)" in footwork("serve", bundle[0], "--rate", rate, status=2).stderr
+
+
+def test_serve_refuses_an_address_that_cannot_be_bound(bundle):
+    assert "tcp://nowhere" in footwork("serve", bundle[0], "--bind", "tcp://nowhere", status=2).stderr
+
+
+def test_a_truncated_capture_names_file_and_line(captures, tmp_path):
+    folder, _ = captures
+    text = (folder / "idle.bvh").read_text()
+    (tmp_path / "idle.bvh").write_text(text[: len(text) // 2])
+    done = footwork("build", tmp_path, "--out", tmp_path / "x.footwork", status=2)
+    assert "idle.bvh:" in done.stderr
+
+
+def test_a_clip_shorter_than_the_window_is_named(tmp_path):
+    body = default_body()
+    clip = next(clip for clip in embedded_clips() if clip.name == "idle").cut(0, 5)
+    write_bvh(tmp_path / "short.bvh", Clip(clip.name, body, clip.fps, clip.root_position, clip.rotations))
+    done = footwork("build", tmp_path, "--out", tmp_path / "x.footwork", status=2)
+    assert "short.bvh" in done.stderr
+    assert "window" in done.stderr
