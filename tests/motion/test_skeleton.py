@@ -50,7 +50,7 @@ def test_repeated_names_wrong_shapes_and_negative_masses_are_refused():
     with pytest.raises(InputError, match="masses"):
         Skeleton(("a", "b", "c"), parents, OFFSETS, masses=np.array([1.0, -1.0, 0.0]))
     with pytest.raises(InputError, match="at least one joint"):
-        Skeleton((), np.zeros(0), np.zeros((0, 3)))
+        Skeleton((), np.zeros(0, dtype=np.int32), np.zeros((0, 3)))
 
 
 def test_an_unknown_joint_is_answered_with_those_there_are():

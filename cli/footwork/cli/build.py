@@ -44,9 +44,11 @@ def build(
     from footwork.motion.bundle import write_bundle
     from footwork.motion.task import SteeringTask
     from footwork.training.build import build_bundle
+    from footwork.training.warm import start_warming
 
     _check_options(graph, out)
     started = time.perf_counter()
+    start_warming()
     task = SteeringTask(discount=discount)
     with progress() as report_progress:
         report_progress("reading motions", 0.0)
