@@ -189,7 +189,7 @@ def test_a_walk_has_both_feet_down_now_and_then_and_never_none():
     assert 0.1 < walking.all(axis=-1).mean() < 0.4
 
 
-@pytest.mark.parametrize("kind", ["curve_wide", "turn_90", "spot_180", "run_turn"])
+@pytest.mark.parametrize("kind", ["curve_wide", "turn_90", "spot_180", "run_turn_90"])
 def test_clips_to_the_right_mirror_those_to_the_left(kind):
     left, right = clips()[f"steer/{kind}_left"], clips()[f"steer/{kind}_right"]
     places, mirrored = clip_places(left)[0], clip_places(right)[0] * np.array([-1.0, 1.0, 1.0])

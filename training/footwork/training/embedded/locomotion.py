@@ -5,6 +5,7 @@ them holds together.
 """
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import NamedTuple
 
 from footwork.motion.body import default_body
@@ -44,6 +45,7 @@ def _clips() -> dict[str, Callable[[], Written]]:
         "walk_duck": _walk_duck,
         "pick": _pick,
         "run": lambda: _run(LEFT, [(4, JOG, 0.0), (5, SPRINT, 0.0)]),
+        "run_short": lambda: _run(RIGHT, [(3, SPRINT, 0.0)]),
         "walk_run_walk": _walk_run_walk,
     }
     for side, foot, sign in (("left", LEFT, 1.0), ("right", RIGHT, -1.0)):
@@ -63,15 +65,21 @@ def _turns(inner: int, sign: float) -> dict[str, Callable[[], Written]]:
         "spot_90": lambda: _spot(inner, 3, 90.0 * sign),
         "spot_180": lambda: _spot(inner, 5, 180.0 * sign),
         "run_curve": lambda: _run_curve(outer, [(5, SPRINT, 14.0 * sign)]),
-        "run_turn": lambda: _run_curve(inner, [(3, JOG, 32.0 * sign)]),
+        "run_turn_90": lambda: _run_curve(inner, [(3, JOG, 32.0 * sign)]),
+        "run_turn_180": lambda: _run_curve(outer, [(4, Pace(0.34, 0.45), 46.0 * sign)]),
     }
 
 
 def _idle() -> Written:
+    """Weight shifted from side to side, through the pose that all starts begin in: from there every start is open."""
     planner = Planner().stand(4.8)
-    sway: Keys = [(0.0, 0.0), (1.2, 0.025), (2.4, 0.0), (3.5, -0.025), (4.6, 0.0)]
-    look: Keys = [(0.4, 0.0), (1.3, 0.35), (2.2, 0.0), (3.2, -0.3), (4.2, 0.0)]
-    return planner, Gesture({"side": sway, "look": look, "chest_yaw": [(t, 0.2 * value) for t, value in look]})
+    passes = [0.0, 0.7, 1.4, 2.0, 2.7, 3.4, 4.0, 4.6]
+    middles = [0.5 * (start + end) for start, end in pairwise(passes)]
+    leans = [0.014, -0.016, 0.01, -0.018, 0.012, -0.014, 0.01]
+    still: Keys = [(time, 0.0) for time in passes]
+    sway = sorted(still + list(zip(middles, leans, strict=True)))
+    look = sorted(still + [(time, 9.0 * lean) for time, lean in zip(middles, leans, strict=True)])
+    return planner, Gesture({"side": sway, "look": look, "chest_yaw": [(time, 0.2 * turn) for time, turn in look]})
 
 
 def _walk(foot: int, phrases: list[Phrase]) -> Written:
@@ -142,12 +150,9 @@ def _run(foot: int, phrases: list[Phrase]) -> Written:
 
 
 def _walk_run_walk() -> Written:
-    planner = Planner().stand(_REST)
-    foot = walking.walk(planner, walking.start_walk(planner, RIGHT), 3)
-    foot = walking.run(planner, walking.quicken(planner, foot), 6)
-    foot = walking.walk(planner, walking.slow_down(planner, foot), 3)
-    walking.stop_walk(planner, foot)
-    return planner.stand(_REST), None
+    planner, foot = _enter_walk(RIGHT)
+    foot = walking.run(planner, walking.quicken(planner, foot), 5)
+    return _leave_walk(planner, walking.slow_down(planner, foot)), None
 
 
 def _jump() -> Written:

@@ -45,8 +45,8 @@ def stop_walk(planner: Planner, foot: int, pace: Pace = NORMAL) -> None:
 
 def start_run(planner: Planner, foot: int) -> int:
     """Two quickening steps from standing into a run."""
-    planner.step(foot, 0.52, 0.40, swing=0.40)
-    planner.step(other(foot), 0.42, 0.72, swing=0.38)
+    planner.step(foot, 0.44, 0.38, swing=0.36)
+    planner.step(other(foot), 0.38, 0.70, swing=0.36, label="run")
     return foot
 
 
@@ -66,16 +66,15 @@ def run(planner: Planner, foot: int, steps: int, pace: Pace = SPRINT, turn: floa
 
 def slow_down(planner: Planner, foot: int) -> int:
     """Two steps from a run into a walk."""
-    planner.step(foot, 0.40, 0.88, swing=0.42, label="run")
-    planner.step(other(foot), 0.47, 0.76)
+    planner.step(foot, 0.40, 0.82, swing=0.42, label="run")
+    planner.step(other(foot), 0.47, 0.74)
     return foot
 
 
 def stop_run(planner: Planner, foot: int) -> None:
-    """Three steps from a run to standing."""
-    planner.step(foot, 0.40, 0.84, swing=0.40, label="run")
-    planner.step(other(foot), 0.46, 0.55)
-    planner.step(foot, 0.55, 0.12, gait=SHUFFLE, swing=0.42)
+    """A braking step from a run, and the other foot beside it."""
+    planner.step(foot, 0.38, 0.66, swing=0.40, label="run")
+    planner.step(other(foot), 0.46, 0.16, gait=SHUFFLE, swing=0.40)
 
 
 def turn_on_the_spot(planner: Planner, foot: int, steps: int, turn: float) -> None:
