@@ -23,7 +23,7 @@ def animate(name: str, plan: Plan, body: Skeleton, gesture: Gesture | None = Non
     gesture = gesture or Gesture()
     feet = feet_of(plan, body, (gesture.touches("left", plan.times), gesture.touches("right", plan.times)))
     pelvis = pelvis_of(plan, feet, body, gesture)
-    trunk = trunk_turns(plan, pelvis, body, gesture)
+    trunk = trunk_turns(plan, pelvis, gesture)
 
     world = np.tile(quaternion.IDENTITY, (len(plan.times), body.joint_count, 1))
     for joint, turn in trunk.items():

@@ -4,7 +4,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion import quaternion
-from footwork.motion.skeleton import Skeleton
 from footwork.training.embedded.curves import smoothed
 from footwork.training.embedded.footsteps import FPS, Plan
 from footwork.training.embedded.gesture import Gesture
@@ -15,7 +14,7 @@ _LOOK_AHEAD = 9  # frames by which the head leads the body into a turn
 _LOOK_LIMIT = 0.7  # radians
 
 
-def trunk_turns(plan: Plan, pelvis: Pelvis, body: Skeleton, gesture: Gesture) -> dict[str, NDArray[np.float64]]:
+def trunk_turns(plan: Plan, pelvis: Pelvis, gesture: Gesture) -> dict[str, NDArray[np.float64]]:
     """World rotations (F, 4) of hips, spine, chest, neck and head, by joint name."""
     times = plan.times
     yaw = plan.heading + _COUNTER_YAW * (1.0 + plan.run) * pelvis.split + gesture.at("chest_yaw", times)
