@@ -9,11 +9,13 @@ from footwork.motion.bundle import read_bundle
 from footwork.study.portrait import draw_character
 from footwork.study.steered_clip import steered_clip
 
-ORDERS = [(3.0, 0.0, "walk"), (2.5, 90.0, "walk"), (2.0, 90.0, "run"), (1.0, 0.0, "run"), (2.0, 0.0, "stop")]
+ORDERS = [(3.0, 0.0, "walk"), (3.0, 90.0, "walk"), (1.6, 90.0, "run"), (1.6, 20.0, "run"), (2.2, 20.0, "stop")]
+EVERY = 26  # frames from one pose to the next
 
 
 def main(bundle: str, picture: str) -> None:
-    draw_character(picture, steered_clip(read_bundle(bundle), ORDERS))
+    clip = steered_clip(read_bundle(bundle), ORDERS)
+    draw_character(picture, clip, frames=range(EVERY, clip.frame_count, EVERY))
     print(f"drew {picture}")
 
 

@@ -85,12 +85,12 @@ def test_score_replays_traces(bundle, tmp_path):
 
 
 def test_demo_steers_over_a_socket(tmp_path):
-    done = footwork("demo", "--headless", "--seconds", "2", "--cache", tmp_path, "--json")
+    done = footwork("demo", "--headless", "--seconds", "3", "--cache", tmp_path, "--json")
     report = json.loads(done.stdout)
     fields = {"frames", "nodes", "edges", "scc_fraction", "ticks", "late_ticks"}
     assert set(report) >= fields | {"tick_us", "command_to_pose_ms", "heading_error_deg"}
-    assert report["ticks"] >= 55
-    assert report["travelled_m"] > 0.5
+    assert report["ticks"] >= 85
+    assert report["travelled_m"] > 0.8
     assert 0.0 < report["command_to_pose_ms"]["p50"] < 1000.0
 
 

@@ -136,7 +136,8 @@ def _run_curve(foot: int, phrases: list[Phrase]) -> Written:
 def _spot(foot: int, steps: int, turn: float) -> Written:
     planner = Planner().stand(_REST)
     walking.turn_on_the_spot(planner, foot, steps, turn)
-    planner.step(other(foot) if steps % 2 else foot, 0.44, gait=SHUFFLE, swing=0.38, label="turn")
+    # the feet come together facing the new way: nothing turns any more, so it is no turn to ask for
+    planner.step(other(foot) if steps % 2 else foot, 0.44, gait=SHUFFLE, swing=0.38, label="idle")
     return planner.stand(_REST), None
 
 
