@@ -75,6 +75,14 @@ def test_inspect_looks_at_motions_before_anything_is_built(captures):
     assert report["labels"]["walk"] > 0
 
 
+def test_lengths_of_a_bvh_may_be_in_another_unit(captures, tmp_path):
+    clip = next(clip for clip in embedded_clips() if clip.name == "walk_normal")
+    write_bvh(tmp_path / "walk.bvh", clip, unit=1.0)
+    assert "another unit" in footwork("inspect", tmp_path, status=2).stderr
+    report = json.loads(footwork("inspect", tmp_path, "--bvh-unit", "1", "--json").stdout)
+    assert report["frames"] == clip.frame_count
+
+
 def test_score_replays_traces(bundle, tmp_path):
     rows = ["tick,forward,strafe,run,yaw_delta_deg,attack,use"]
     rows += [f"{tick},1,0,0,{1.40625 if 100 < tick < 160 else 0},0,0" for tick in range(350)]
@@ -114,6 +122,7 @@ def test_a_damaged_bundle_in_the_cache_is_built_anew(tmp_path):
         (("build", "embedded:locomotion", "--out", "x.footwork", "--discount", "1"), "expected 0 <= discount < 1"),
         (("build", "embedded:locomotion"), "--out"),
         (("inspect", "/no/such/bundle"), "/no/such/bundle"),
+        (("inspect", "embedded:locomotion", "--bvh-unit", "1"), "embedded motions are not read from files"),
         (("serve", "/no/such/bundle"), "/no/such/bundle"),
         (("score", "/no/such/bundle", "--traces", "/no/such/traces"), "/no/such"),
         (("demo", "--seconds", "-1"), "--seconds"),

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from footwork.cli.motions import load_motions
+from footwork.cli.motions import AS_USUAL, Reading, load_motions
 from footwork.cli.output import emit, progress
 from footwork.errors import InputError
 
@@ -20,10 +20,8 @@ def build(
     out: Path,
     graph: str = "standard",
     threshold: float = 1.0,
-    labels: Path | None = None,
-    ranges: Path | None = None,
-    table: tuple[Path, ...] = (),
     discount: float = 0.98,
+    reading: Reading = AS_USUAL,
     json: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
     """Make a bundle from motion capture: motion graph, policy table, provenance.
@@ -35,10 +33,8 @@ def build(
         out: The bundle to write; an older one there is replaced only once the new one is whole.
         graph: The kind of motion graph: standard.
         threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm).
-        labels: CSV file with set, file, start_frame, end_frame, label.
-        ranges: CSV file with set, file, start_frame, end_frame: the parts to use; all where not given.
-        table: Name table of a skeleton of your own (TOML); may be given several times.
         discount: The worth of the next tick's reward against this one's.
+        reading: How a folder of capture is read.
         json: Print the report as one JSON object.
     """
     from footwork.motion.bundle import write_bundle
@@ -52,7 +48,7 @@ def build(
     task = SteeringTask(discount=discount)
     with progress() as report_progress:
         report_progress("reading motions", 0.0)
-        dataset = load_motions(motions, labels, ranges, table)
+        dataset = load_motions(motions, reading)
         read = time.perf_counter() - started
         bundle, report = build_bundle(dataset, threshold=threshold, task=task, progress=report_progress)
         digest = write_bundle(out, bundle)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from footwork.cli.default_bundle import build_or_reuse, cache_folder
-from footwork.cli.motions import load_motions
+from footwork.cli.motions import AS_USUAL, Reading, load_motions
 from footwork.cli.output import emit, log, progress
 from footwork.errors import FootworkError, InputError
 
@@ -28,7 +28,7 @@ def demo(
     headless: bool = False,
     seconds: float = 10.0,
     motions: str = "embedded:locomotion",
-    labels: Path | None = None,
+    reading: Reading = AS_USUAL,
     rate: int = 60,
     cache: Path | None = None,
     json: Annotated[bool, Parameter(negative=())] = False,
@@ -41,7 +41,7 @@ def demo(
         headless: Without the live view. So far there is none, so this is always the case.
         seconds: How long to play.
         motions: A folder of capture in place of the embedded motions.
-        labels: The labels of that folder, CSV.
+        reading: How that folder is read.
         rate: Frames sent a second: 30, 60 or 120.
         cache: Where to keep the bundle, in place of the user's cache folder.
         json: Print the summary as one JSON object.
@@ -50,7 +50,7 @@ def demo(
         raise InputError(f"{seconds:g} seconds, expected 0.5 to 3600", "--seconds")
     with progress() as report_progress:
         report_progress("reading motions", 0.0)
-        dataset = load_motions(motions, labels, None, ())
+        dataset = load_motions(motions, reading)
         path, bundle = build_or_reuse(dataset, cache or cache_folder(), report_progress)
     log(f"bundle {path}")
     with _serving(path, rate) as server:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from footwork.cli.motions import EMBEDDED, load_motions
+from footwork.cli.motions import AS_USUAL, EMBEDDED, Reading, load_motions
 from footwork.cli.output import emit, progress
 
 
@@ -15,9 +15,7 @@ def inspect(
     /,
     *,
     plots: Path | None = None,
-    labels: Path | None = None,
-    ranges: Path | None = None,
-    table: tuple[Path, ...] = (),
+    reading: Reading = AS_USUAL,
     json: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
     """Say what is in a bundle, or look at motions before a bundle is made of them.
@@ -27,27 +25,23 @@ def inspect(
     Args:
         source: A bundle, a folder of BVH or ASF/AMC files, embedded:locomotion or embedded:fighting.
         plots: A folder to draw contact sheets and plots into.
-        labels: CSV file with set, file, start_frame, end_frame, label, for a folder.
-        ranges: CSV file with set, file, start_frame, end_frame, for a folder.
-        table: Name table of a skeleton of your own (TOML), for a folder; may be given several times.
+        reading: How a folder of capture is read.
         json: Print the report as one JSON object.
     """
     with progress() as report_progress:
         report_progress("reading", 0.0)
         if source.startswith(EMBEDDED) or Path(source).is_dir():
-            report = _inspect_motions(source, plots, labels, ranges, table)
+            report = _inspect_motions(source, plots, reading)
         else:
             report = _inspect_bundle(Path(source), plots)
     emit(report, json, source)
 
 
-def _inspect_motions(
-    source: str, plots: Path | None, labels: Path | None, ranges: Path | None, table: tuple[Path, ...]
-) -> dict:
+def _inspect_motions(source: str, plots: Path | None, reading: Reading) -> dict:
     from footwork.study.contact_sheet import contact_sheets
     from footwork.study.inspection import inspect_clips
 
-    dataset = load_motions(source, labels, ranges, table)
+    dataset = load_motions(source, reading)
     pictures = contact_sheets(plots, list(dataset.clips)) if plots else []
     return inspect_clips(dataset.clips) | _about(dataset.attribution, pictures)
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from cyclopts import Parameter
 
 from footwork.errors import InputError
 
@@ -14,19 +17,47 @@ if TYPE_CHECKING:  # at run time they are imported where they are needed, so tha
 EMBEDDED = "embedded:"
 
 
-def load_motions(motions: str, labels: Path | None, ranges: Path | None, tables: tuple[Path, ...]) -> Dataset:
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Reading:
+    """Options of how a folder of capture is read.
+
+    Args:
+        labels: CSV file with set, file, start_frame, end_frame, label.
+        ranges: CSV file with set, file, start_frame, end_frame: the parts to use; all where not given.
+        table: Name table of a skeleton of your own (TOML); may be given several times.
+        bvh_unit: Metres in one unit of length of the BVH files; they are in centimetres unless told otherwise.
+    """
+
+    labels: Path | None = None
+    ranges: Path | None = None
+    table: tuple[Path, ...] = ()
+    bvh_unit: float = 0.01
+
+
+AS_USUAL = Reading()
+
+
+def load_motions(motions: str, reading: Reading = AS_USUAL) -> Dataset:
     """Clips on the common body from a folder, or from ``embedded:locomotion`` and ``embedded:fighting``.
 
     Raises:
-        InputError: for files that cannot be read, and for labels or ranges of embedded motions, which have none.
+        InputError: for files that cannot be read, and for options of reading where nothing is read.
     """
-    if not motions.startswith(EMBEDDED):
-        from footwork.training.dataset import load_clips
+    if motions.startswith(EMBEDDED):
+        if reading != AS_USUAL:
+            problem = "embedded motions are not read from files, expected none of these options"
+            raise InputError(problem, "--labels, --ranges, --table, --bvh-unit")
+        return embedded_dataset(motions.removeprefix(EMBEDDED))
+    from footwork.training.dataset import load_clips
 
-        return load_clips(Path(motions), labels=labels, ranges=ranges, tables=tables)
-    if labels or ranges or tables:
-        raise InputError("embedded motions bring their own labels and body", "--labels, --ranges or --table")
-    return embedded_dataset(motions.removeprefix(EMBEDDED))
+    return load_clips(
+        Path(motions),
+        labels=reading.labels,
+        ranges=reading.ranges,
+        tables=reading.table,
+        bvh_unit=reading.bvh_unit,
+    )
 
 
 def embedded_dataset(name: str) -> Dataset:
