@@ -122,6 +122,7 @@ def test_a_damaged_bundle_in_the_cache_is_built_anew(tmp_path):
         (("build", "embedded:locomotion", "--out", "x.footwork", "--discount", "1"), "expected 0 <= discount < 1"),
         (("build", "embedded:locomotion"), "--out"),
         (("inspect", "/no/such/bundle"), "/no/such/bundle"),
+        (("inspect", "folder", "--bvh-unit", "-0.01"), "--bvh-unit: -0.01 metres, expected a positive number"),
         (("inspect", "embedded:locomotion", "--bvh-unit", "1"), "embedded motions are not read from files"),
         (("serve", "/no/such/bundle"), "/no/such/bundle"),
         (("score", "/no/such/bundle", "--traces", "/no/such/traces"), "/no/such"),

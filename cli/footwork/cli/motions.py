@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,6 +34,10 @@ class Reading:
     ranges: Path | None = None
     table: tuple[Path, ...] = ()
     bvh_unit: float = 0.01
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.bvh_unit) and self.bvh_unit > 0.0):
+            raise InputError(f"{self.bvh_unit} metres, expected a positive number", "--bvh-unit")
 
 
 AS_USUAL = Reading()
