@@ -101,13 +101,13 @@ def test_nothing_asked_gives_none_rather_than_a_number():
     assert measures.latencies(still).summary() == {"mean": None, "p95": None}
     assert measures.latencies(still).share is None
     assert measures.quality(still)["heading_error_deg"] == {"mean": None, "p95": None}
-    assert measures.jumps(still) == {"asked": 0, "answered": 0}
+    assert measures.jumps(still) == {"jumps_asked": 0, "jumps_answered": 0}
 
 
 def test_a_jump_window_is_answered_by_one_frame_inside_it():
     windows = [-1, 0, 0, -1, -1, 1, 1, -1, 2]
     shown = [WALK, WALK, JUMP, JUMP, JUMP, WALK, WALK, JUMP, JUMP]
-    assert measures.jumps(followed(9, jump=windows, shown=shown)) == {"asked": 3, "answered": 2}
+    assert measures.jumps(followed(9, jump=windows, shown=shown)) == {"jumps_asked": 3, "jumps_answered": 2}
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(2, 60))

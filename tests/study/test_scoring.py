@@ -24,6 +24,7 @@ FIELDS = {
     "settled_share",
     "behaviour_latency_s",
     "answered_share",
+    "jumps_asked",
     "jumps_answered",
     "missing_behaviours",
     "foot_slide_cm_s",
@@ -80,7 +81,7 @@ def test_the_same_traces_score_the_same():
 def test_a_missing_behaviour_scores_nothing_at_its_ticks_and_is_listed():
     report = score(ring_bundle(), [trace(ticks=140, attack=1)])
     assert report["missing_behaviours"] == ["jump"]
-    assert report["jumps_answered"] == {"asked": 1, "answered": 0}
+    assert (report["jumps_asked"], report["jumps_answered"]) == (1, 0)
     # the window of 12 source ticks covers eleven ticks of 1/30 s; the character meanwhile walks on
     assert report["control"] == pytest.approx(1.0 - 11 / 120)
     assert score(ring_bundle(), [trace(forward=0)])["control"] == 0.0

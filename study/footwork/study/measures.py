@@ -133,7 +133,7 @@ def jumps(followed: Followed) -> dict[str, int]:
     """How many jump windows there were, and in how many a frame of a jump was shown."""
     asked = np.unique(followed.jump[followed.jump >= 0])
     inside = (followed.jump >= 0) & (followed.shown == BEHAVIOURS.index("jump"))
-    return {"asked": len(asked), "answered": len(np.unique(followed.jump[inside]))}
+    return {"jumps_asked": len(asked), "jumps_answered": len(np.unique(followed.jump[inside]))}
 
 
 def quality(followed: Followed) -> dict[str, Any]:

@@ -31,7 +31,7 @@ def score(
 
     ``control, transition, transition_jumps, total, total_by_tick, heading_error_deg`` as ``measures.quality``;
     ``settle_s, settled_share`` as ``measures.settling``; ``behaviour_latency_s, answered_share`` as
-    ``measures.latencies``; ``jumps_answered`` as ``measures.jumps``; ``missing_behaviours`` are those that a trace
+    ``measures.latencies``; ``jumps_asked, jumps_answered`` as ``measures.jumps``; ``missing_behaviours`` are those that a trace
     asks for and no frame shows, whose ticks score 0; ``foot_slide_cm_s`` is of the poses shown at the ticks and
     ``source_foot_slide_cm_s`` of the capture in the graph; ``tick_us`` is decision, step and show of one character;
     ``total_interval`` as ``measures.bootstrap_total``; ``traces`` has the same of each trace with its ``file``.
@@ -75,7 +75,7 @@ def _report(replays: Sequence[Replay], present: tuple[str, ...], source: Slide) 
         "settled_share": settling.share,
         "behaviour_latency_s": latencies.summary(),
         "answered_share": latencies.share,
-        "jumps_answered": {name: sum(jump[name] for jump in jumps) for name in ("asked", "answered")},
+        **{name: sum(jump[name] for jump in jumps) for name in ("jumps_asked", "jumps_answered")},
         "missing_behaviours": sorted(asked - set(present)),
         "foot_slide_cm_s": slide.cm_per_second,
         "source_foot_slide_cm_s": source.cm_per_second,
