@@ -32,8 +32,8 @@ def score(
     ``control, transition, transition_jumps, total, total_by_tick, heading_error_deg`` as ``measures.quality``;
     ``settle_s, settled_share`` as ``measures.settling``; ``behaviour_latency_s, answered_share`` as
     ``measures.latencies``; ``jumps_asked, jumps_answered`` as ``measures.jumps``; ``missing_behaviours`` are those
-    that a trace asks for and no frame shows, whose ticks score 0; ``foot_slide_cm_s`` is of the poses shown at the ticks and
-    ``source_foot_slide_cm_s`` of the capture in the graph; ``tick_us`` is decision, step and show of one character;
+    that a trace asks for and no frame shows, whose ticks score 0; ``foot_slide_cm_s`` is of the poses shown at the
+    ticks and ``source_foot_slide_cm_s`` of the capture in the graph; ``tick_us`` is decision, step and show of one character;
     ``total_interval`` as ``measures.bootstrap_total``; ``traces`` has the same of each trace with its ``file``.
 
     Args:
