@@ -33,8 +33,9 @@ def score(
     ``settle_s, settled_share`` as ``measures.settling``; ``behaviour_latency_s, answered_share`` as
     ``measures.latencies``; ``jumps_asked, jumps_answered`` as ``measures.jumps``; ``missing_behaviours`` are those
     that a trace asks for and no frame shows, whose ticks score 0; ``foot_slide_cm_s`` is of the poses shown at the
-    ticks and ``source_foot_slide_cm_s`` of the capture in the graph; ``tick_us`` is decision, step and show of one character;
-    ``total_interval`` as ``measures.bootstrap_total``; ``traces`` has the same of each trace with its ``file``.
+    ticks and ``source_foot_slide_cm_s`` of the capture in the graph; ``tick_us`` is decision, step and show of one
+    character; ``total_interval`` as ``measures.bootstrap_total``; ``traces`` has the same of each trace with its
+    ``file``.
 
     Args:
         bundle: whose graph's edge costs are the uniform metric's, as those of standard graphs are.
