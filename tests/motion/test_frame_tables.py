@@ -62,6 +62,8 @@ BAD = {
     "no label": ("idle", "", "labels.csv:2: label is empty"),
     "quote left open": ("idle", '"idle', "labels.csv:"),
     "long label": ("idle", "i" * 65, "labels.csv:2: a label of 65"),
+    "control character": ("idle", "id\0le", "labels.csv:2: a control character"),
+    "column twice": ("set,file", "file,file", "labels.csv:1: column file is there twice"),
 }
 
 
@@ -69,6 +71,26 @@ BAD = {
 def test_bad_table_is_refused_with_its_line(tmp_path: Path, old: str, new: str, said: str):
     with pytest.raises(InputError, match=said):
         read_labels(table(tmp_path, LABELS.replace(old, new, 1)))
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
+def test_text_that_is_not_utf_8_is_refused(tmp_path: Path, encoding: str):
+    path = tmp_path / "labels.csv"
+    path.write_bytes(LABELS.replace("idle", "arrêt").encode(encoding))
+    with pytest.raises(InputError, match=r"labels.csv:\d: not UTF-8 text"):
+        read_labels(path)
+
+
+def test_letters_of_any_language_are_kept(tmp_path: Path):
+    rows = read_labels(table(tmp_path, LABELS.replace("idle", '"arrêt, 停"')))
+    assert rows[0].label == "arrêt, 停"
+
+
+def test_a_row_for_any_folder_may_not_overlap_one_for_this_folder(tmp_path: Path):
+    rows = read_labels(table(tmp_path, LABELS + ",b.bvh,4,9,run\n"))
+    assert len(rows_of_set(rows, "elsewhere")) == 1
+    with pytest.raises(InputError, match=r"labels.csv:6: frames 4..9 of b.bvh overlap 3..5"):
+        rows_of_set(rows, "walks")
 
 
 @pytest.mark.parametrize("text", ["", "\n", ",,\n", "file,start_frame,end_frame,label"])

@@ -21,6 +21,7 @@ from footwork.motion.textfile import read_lines, whole_number
 RANGE_COLUMNS = ("file", "start_frame", "end_frame")
 LABEL_COLUMNS = (*RANGE_COLUMNS, "label")
 MAX_LABEL = 64
+_CONTROL = {chr(code) for code in range(32)} - {"\t"}
 
 
 @dataclass(frozen=True)
@@ -48,8 +49,8 @@ def read_ranges(path: str | Path) -> tuple[FrameRange, ...]:
     """The rows of a table of ranges.
 
     Raises:
-        InputError: naming the line, for missing columns, numbers that are no frames, and reversed, empty or
-            overlapping ranges.
+        InputError: naming the line, for text that is not UTF-8, columns that are missing or there twice, numbers
+            that are no frames, and reversed, empty or overlapping ranges.
     """
     return _read(path, RANGE_COLUMNS)
 
@@ -64,8 +65,14 @@ def read_labels(path: str | Path) -> tuple[FrameRange, ...]:
 
 
 def rows_of_set(rows: Iterable[FrameRange], set_name: str) -> list[FrameRange]:
-    """The rows for the files of one folder."""
-    return [row for row in rows if row.set_name in ("", set_name)]
+    """The rows for the files of one folder.
+
+    Raises:
+        InputError: for rows that overlap, one of them for this folder and one for any.
+    """
+    own = [row for row in rows if row.set_name in ("", set_name)]
+    _require_apart(own)
+    return own
 
 
 def rows_of_file(rows: Iterable[FrameRange], file: str) -> list[FrameRange]:
@@ -104,20 +111,36 @@ def _read(path: str | Path, columns: tuple[str, ...]) -> tuple[FrameRange, ...]:
     missing = [name for name in columns if name not in header]
     if missing:
         raise InputError(f"no column {', '.join(missing)}; expected {', '.join(columns)}", f"{path}:{line}")
+    twice = [name for name in columns if header.count(name) > 1]
+    if twice:
+        raise InputError(f"column {twice[0]} is there twice", f"{path}:{line}")
     rows = tuple(_frame_range(header, values, columns, f"{path}:{line}") for line, values in table)
-    _require_apart(rows)
+    for set_name in {row.set_name for row in rows}:
+        _require_apart([row for row in rows if row.set_name == set_name])
     return rows
 
 
 def _csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
     """Line number and cells of each row that is not blank; the file is known to have one."""
-    reader = csv.reader((line.decode("utf-8", errors="replace") for line in read_lines(path)), strict=True)
+    reader = csv.reader(_texts(path), strict=True)
     try:
         for row in reader:
             if any(row):
                 yield reader.line_num, [cell.strip() for cell in row]
     except csv.Error as error:
         raise InputError(f"not comma-separated values ({error})", f"{path}:{reader.line_num}") from None
+
+
+def _texts(path: str | Path) -> Iterator[str]:
+    """The lines of the file, without control characters but for tabs."""
+    for number, line in enumerate(read_lines(path), start=1):
+        try:
+            text = line.decode("utf-8")
+        except UnicodeDecodeError:
+            raise InputError("not UTF-8 text, expected comma-separated values in UTF-8", f"{path}:{number}") from None
+        if not _CONTROL.isdisjoint(text):
+            raise InputError("a control character, expected comma-separated values", f"{path}:{number}")
+        yield text
 
 
 def _frame_range(header: list[str], values: list[str], columns: tuple[str, ...], where: str) -> FrameRange:
@@ -137,9 +160,10 @@ def _frame_range(header: list[str], values: list[str], columns: tuple[str, ...],
 
 
 def _require_apart(rows: Sequence[FrameRange]) -> None:
-    ordered = sorted(rows, key=lambda row: (row.set_name, row.file, row.start))
+    """Raise InputError if two rows for one file of one folder overlap."""
+    ordered = sorted(rows, key=lambda row: (row.file, row.start))
     for one, two in pairwise(ordered):
-        if (one.set_name, one.file) == (two.set_name, two.file) and two.start < one.end:
+        if one.file == two.file and two.start < one.end:
             raise InputError(
                 f"frames {two.start}..{two.end} of {two.file} overlap {one.start}..{one.end} of {one.where}", two.where
             )
