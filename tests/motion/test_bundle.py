@@ -129,6 +129,12 @@ def test_a_newer_version_says_so():
         (lambda about, arrays: about["tables"]["steering"]["task"].update(behaviours=["walk", "stop"]), "behaviours"),
         (lambda about, arrays: about["joints"].__setitem__(1, "hips"), "used twice"),
         (lambda about, arrays: about.pop("clips"), "clips"),
+        (lambda about, arrays: arrays.update({"graph.target": np.full(5, 0.5, np.float32)}), "target' holds float32"),
+        (lambda about, arrays: arrays.update({"skeleton.masses": np.ones(21, np.int32)}), "masses' holds int32"),
+        (lambda about, arrays: arrays.update({"table.steering": np.zeros((5, 2, 36))}), "steering' holds float64"),
+        (lambda about, arrays: arrays.update({"graph.rotations": np.zeros((5, 21, 4), np.float32)}), "of length 0"),
+        (lambda about, arrays: arrays.update({"graph.cost": np.full(5, -1, np.float32)}), "cost holds -1"),
+        (lambda about, arrays: arrays.update({"graph.smoothness": np.full(5, 1.1, np.float32)}), "expected 0 to 1"),
         (lambda about, arrays: about["labels"].clear(), "label holds 0 to 0"),
     ],
 )
@@ -177,8 +183,10 @@ def test_provenance_that_is_no_json_is_never_written(tmp_path):
 def test_places_that_cannot_be_read_or_written(tmp_path):
     with pytest.raises(InputError, match=re.escape(str(tmp_path / "none"))):
         read_bundle(tmp_path / "none")
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="not a regular file"):
         read_bundle(tmp_path)
+    with pytest.raises(InputError, match="not a regular file"):
+        read_bundle("/dev/zero")
     with pytest.raises(InputError, match="cannot be written"):
         write_bundle(tmp_path / "no" / "b.footwork", sample_bundle())
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion import tensor_file
@@ -18,7 +18,13 @@ from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 
 VERSION = 1
-_BODY_ARRAYS = ("parents", "offsets", "ends", "masses", "feet")
+_BODY_ARRAYS = {
+    "parents": np.int32,
+    "offsets": np.float64,
+    "ends": np.float64,
+    "masses": np.float64,
+    "feet": np.int32,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,14 +168,16 @@ def _about_table(table: PolicyTable) -> _Table:
     return _Table(table.task, table.residual, table.sweeps, table.converged)
 
 
-def _take(arrays: Mapping[str, NDArray], name: str, where: str) -> NDArray:
+def _take(arrays: Mapping[str, NDArray], name: str, kind: DTypeLike, where: str) -> NDArray:
     if name not in arrays:
         raise InputError(f"no array {name!r}, it has {', '.join(sorted(arrays)) or 'none'}", where)
+    if arrays[name].dtype != kind:
+        raise InputError(f"array {name!r} holds {arrays[name].dtype}, expected {np.dtype(kind)}", where)
     return arrays[name]
 
 
 def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PolicyTable:
-    values = _take(arrays, f"table.{name}", where)
+    values = _take(arrays, f"table.{name}", np.float32, where)
     if not math.isfinite(about.residual):
         raise InputError(f"table {name!r} has a residual of {about.residual}, expected a finite number", where)
     return PolicyTable(
@@ -178,8 +186,8 @@ def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) 
 
 
 def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGraph:
-    body = {name: _take(arrays, f"skeleton.{name}", where) for name in _BODY_ARRAYS}
-    graph = {name: _take(arrays, f"graph.{name}", where) for name in ARRAYS}
+    body = {name: _take(arrays, f"skeleton.{name}", kind, where) for name, kind in _BODY_ARRAYS.items()}
+    graph = {name: _take(arrays, f"graph.{name}", kind, where) for name, kind in ARRAYS.items()}
     return MotionGraph(
         skeleton=Skeleton(names=tuple(about.joints), where=f"{where}: skeleton", **body),
         clips=tuple(about.clips),

@@ -5,12 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.errors import InputError
 from footwork.motion.arrays import frozen, require_finite, require_range, require_shape
 from footwork.motion.skeleton import Skeleton
 
 NO_BEHAVIOUR = -1
+_UNIT_TOLERANCE = 1e-3
 
-_KINDS = {
+# the arrays of a graph and what they hold
+ARRAYS = {
     "clip": np.int32,
     "frame": np.int32,
     "label": np.int16,
@@ -27,7 +30,6 @@ _KINDS = {
     "displacement": np.float32,
     "natural": np.bool_,
 }
-ARRAYS = tuple(_KINDS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +63,8 @@ class MotionGraph:
         natural: whether the edge follows the capture.  # (E,)
 
     Raises:
-        InputError: for arrays that do not fit together, indices out of range or numbers that are not finite.
+        InputError: for arrays that do not fit together, indices out of range, numbers that are not finite,
+            rotations that are not of unit length, costs below 0 or smoothness outside 0..1.
     """
 
     skeleton: Skeleton
@@ -86,12 +89,13 @@ class MotionGraph:
     where: str = "graph"
 
     def __post_init__(self) -> None:
-        for name, kind in _KINDS.items():
+        for name, kind in ARRAYS.items():
             object.__setattr__(self, name, frozen(getattr(self, name), kind))
         for name in ("clips", "labels", "behaviours"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         self._check_shapes()
         self._check_indices()
+        self._check_values()
 
     def _check_shapes(self) -> None:
         nodes, edges, joints = len(self.clip), len(self.target), self.skeleton.joint_count
@@ -115,6 +119,16 @@ class MotionGraph:
         require_range(np.diff(self.edge_start), 0, edges + 1, "edges of a node", self.where)
         require_range(self.edge_start[[0]], 0, 1, "edge_start[0]", self.where)
         require_range(self.edge_start[[-1]], edges, edges + 1, "edge_start[-1]", self.where)
+
+    def _check_values(self) -> None:
+        lengths = np.linalg.norm(self.rotations, axis=-1)
+        if lengths.size and not np.abs(lengths - 1.0).max() < _UNIT_TOLERANCE:
+            problem = f"rotations holds quaternions of length {lengths.min():g} to {lengths.max():g}, expected 1"
+            raise InputError(problem, self.where)
+        for name, high in (("cost", np.inf), ("smoothness", 1.0)):
+            array = getattr(self, name)
+            if array.size and not (array.min() >= 0.0 and array.max() <= high):
+                raise InputError(f"{name} holds {array.min():g} to {array.max():g}, expected 0 to {high:g}", self.where)
 
     @property
     def node_count(self) -> int:

@@ -7,6 +7,7 @@ hexadecimal characters read as zeros, so that any changed byte is noticed, the h
 import contextlib
 import hashlib
 import os
+import stat
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -133,12 +134,15 @@ def read_bytes(path: Path) -> bytes:
     """The file's bytes, an own copy, so that a file changed under us changes nothing here.
 
     Raises:
-        InputError: for a file that cannot be read or is larger than any bundle.
+        InputError: for a file that cannot be read, is no regular file or is larger than any bundle.
     """
     try:
-        size = path.stat().st_size
-        if size > MAX_FILE_BYTES:
-            raise InputError(f"{size} bytes, expected at most {MAX_FILE_BYTES}", path)
+        status = path.stat()
+        # a device or a pipe could go on without end
+        if not stat.S_ISREG(status.st_mode):
+            raise InputError("cannot be read: not a regular file", path)
+        if status.st_size > MAX_FILE_BYTES:
+            raise InputError(f"{status.st_size} bytes, expected at most {MAX_FILE_BYTES}", path)
         return path.read_bytes()
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", path) from None
