@@ -146,7 +146,8 @@ def _read_toml(path: Path) -> dict[str, Any]:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
-        raise InputError(f"cannot be read ({error}), expected a name table in TOML", path) from None
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise InputError(f"cannot be read ({reason}), expected a name table in TOML", path) from None
     if len(data) > MAX_BYTES:
         raise InputError(f"is longer than {MAX_BYTES} bytes, expected a name table in TOML", path)
     try:

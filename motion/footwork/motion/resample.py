@@ -11,7 +11,7 @@ from footwork.motion import quaternion
 from footwork.motion.clip import Clip
 
 COMMON_RATE = 30.0
-MAX_FRAMES = 10_000_000
+MAX_FRAMES = 1_000_000  # nine hours at 30 Hz
 # Ratios of rates are not exact in binary: a time this near to a frame is meant to be on it.
 _NEARLY = 1e-9
 
