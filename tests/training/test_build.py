@@ -41,6 +41,7 @@ def test_the_report_has_the_fields_that_tools_read(built):
         "seconds",
         "peak_rss_mb",
         "policy",
+        "missing_behaviours",
         "digest",
     ]
     assert list(report["seconds"]) == ["read", "metric", "graph", "policy", "total"]
@@ -90,6 +91,18 @@ def test_clips_that_are_missing_or_too_short_are_refused():
     short = replace(sample_clip(0, 40).cut(0, 10), name="short.bvh")
     with pytest.raises(InputError, match=r"short.bvh: 10 frames at 30 Hz, expected at least the 11"):
         build_bundle(Motions([sample_clip(0, 40), short]), threshold=1.0)
+
+
+def test_more_frames_than_memory_has_room_for_are_refused():
+    long = sample_clip(0, 10_000)
+    with pytest.raises(InputError, match=r"motions: 100000000 frames at 30 Hz, expected \d+ at most"):
+        build_bundle(Motions([long] * 10_000), threshold=1.0)
+
+
+def test_behaviours_that_no_frame_shows_are_named(built):
+    assert built[1]["missing_behaviours"] == []
+    _, report = build_bundle(Motions([sample_clip(seed, 80, "idle") for seed in range(2)]), threshold=1.0)
+    assert report["missing_behaviours"] == ["walk", "run", "jump"]
 
 
 def test_a_threshold_that_connects_nothing_names_one_that_does():

@@ -17,13 +17,15 @@ from footwork.motion.metric import PointCloudMetric
 from footwork.motion.task import SteeringTask
 from footwork.motion.window import LENGTH
 from footwork.training.connectivity import connecting_threshold, largest_component, restricted
+from footwork.training.memory import machine_bytes, peak_rss_mb
 from footwork.training.nodes import nodes_of
-from footwork.training.peak_memory import peak_rss_mb
 from footwork.training.standard_graph import standard_graph
 from footwork.training.transitions import Minima, local_minima
 from footwork.training.value_iteration import solve
 
 Progress = Callable[[str, float], None]
+# a float64 cost for each pair of frames, and as much again for the rest of the build and the machine
+_BYTES_PER_PAIR = 16
 
 
 class Motions(Protocol):
@@ -56,7 +58,8 @@ def build_bundle(
 
     The report is JSON-able: frames, nodes, edges (of the whole graph), scc_nodes, scc_fraction (of the frames),
     threshold, seconds (metric, graph, policy and their total; read is 0, for the clips came from the caller),
-    peak_rss_mb, policy (states, sweeps, residual, converged) and digest.
+    peak_rss_mb, policy (states, sweeps, residual, converged), missing_behaviours (those that no frame of the graph
+    shows, so that commands for them go unanswered) and digest.
 
     Args:
         motions: the clips and where they came from.
@@ -66,8 +69,8 @@ def build_bundle(
 
     Raises:
         InputError: for a threshold that is not a positive number, no clips, a clip shorter than the metric's window
-            or of another body or frame rate, a graph that cannot be walked without end at this threshold, or a
-            policy that does not converge.
+            or of another body or frame rate, more frames than memory has room for, a graph that cannot be walked
+            without end at this threshold, or a policy that does not converge.
     """
     task = task or SteeringTask()
     tell = progress or (lambda stage, share: None)
@@ -103,6 +106,7 @@ def build_bundle(
             "residual": table.residual,
             "converged": table.converged,
         },
+        "missing_behaviours": _missing_behaviours(graph),
         "digest": bundle.digest,
     }
     return bundle, report
@@ -115,6 +119,19 @@ def _check(clips: Sequence[Clip], threshold: float) -> None:
         if clip.frame_count < LENGTH:
             problem = f"{clip.frame_count} frames at 30 Hz, expected at least the {LENGTH} of the metric's window"
             raise InputError(problem, clip.name)
+    _check_room(sum(clip.frame_count for clip in clips))
+
+
+def _check_room(frames: int) -> None:
+    """Raise InputError where the costs of all pairs of frames would not fit into memory."""
+    room = math.isqrt(machine_bytes() // _BYTES_PER_PAIR)
+    if frames > room:
+        raise InputError(f"{frames} frames at 30 Hz, expected {room} at most on this machine: use fewer", "motions")
+
+
+def _missing_behaviours(graph: MotionGraph) -> list[str]:
+    shown = set(graph.behaviour.tolist())
+    return [name for index, name in enumerate(graph.behaviours) if index not in shown]
 
 
 @contextmanager

@@ -1,5 +1,6 @@
-"""How much memory the process has held at most."""
+"""How much memory the process has held at most, and how much the machine has."""
 
+import os
 import resource
 import sys
 
@@ -9,3 +10,8 @@ def peak_rss_mb() -> float:
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     # kilobytes on Linux, bytes on macOS
     return peak / (1 << 20) if sys.platform == "darwin" else peak / 1024
+
+
+def machine_bytes() -> int:
+    """The machine's main memory, bytes."""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
