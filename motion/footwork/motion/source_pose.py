@@ -13,6 +13,12 @@ from footwork.motion.clip import Clip
 from footwork.motion.kinematics import clip_places
 from footwork.motion.name_table import END, JointRule, NameTable, frame_of
 
+_LEG_BONES = [
+    (f"{side}_{bone}", f"{side}_{tip}")
+    for side in ("left", "right")
+    for bone, tip in (("thigh", "shank"), ("shank", "foot"))
+]
+_SHORTEST = 1e-6  # of the capture's unit
 _FLAT = 1e-3  # sine of the least angle between a foot's bone and its upward axis
 
 
@@ -23,7 +29,8 @@ def source_pose(clip: Clip, table: NameTable) -> tuple[NDArray[np.float64], NDAr
     pose, as far as the table knows: the bones' directions need not agree with the places to the last degree.
 
     Raises:
-        InputError: where the clip's skeleton lacks a joint that the table names, or a foot has no direction.
+        InputError: where the clip's skeleton lacks a joint that the table names, a foot has no direction, or a bone
+            of a leg has no length in some frame.
     """
     places, turns = clip_places(clip)
     joints = {name: clip.skeleton.index(name) for name in _needed(table)}
@@ -38,10 +45,21 @@ def source_pose(clip: Clip, table: NameTable) -> tuple[NDArray[np.float64], NDAr
     points = np.stack([_mean([place_of(name) for name in table.joints[joint].place]) for joint in NAMES], axis=1)
     captured = turns[:, [joints[table.joints[joint].turn] for joint in NAMES]]
     frames = np.stack([_rest_frame(joint, points, captured, table) for joint in NAMES])
+    _require_legs(points, clip.name)
     return (
         quaternion.rotate(table.world, points),
         quaternion.multiply(table.world, quaternion.multiply(captured, frames)),
     )
+
+
+def _require_legs(points: NDArray[np.float64], where: str) -> None:
+    """Raise InputError, naming bone and frame, where a thigh or a shank has no length, and so no direction."""
+    for bone, tip in _LEG_BONES:
+        lengths = np.linalg.norm(points[:, NAMES.index(tip)] - points[:, NAMES.index(bone)], axis=-1)
+        frame = int(lengths.argmin())
+        if not lengths[frame] > _SHORTEST:
+            problem = f"the legs have no length ({bone} in frame {frame})"
+            raise InputError(f"{problem}, expected thighs, shanks and feet at places of their own", where)
 
 
 def _needed(table: NameTable) -> set[str]:
