@@ -12,7 +12,7 @@ from footwork.motion.grounding import heights_above_rest
 from footwork.motion.kinematics import clip_places, facing_yaw
 from footwork.motion.name_table import table_for
 from footwork.motion.resample import resample
-from footwork.motion.retarget import captured_places, common_body_of, onto_common_body
+from footwork.motion.retarget import captured_places, common_body_of, floors_of, onto_common_body
 from shared_data import MOTIONS, needs_motions
 
 pytestmark = needs_motions
@@ -141,3 +141,21 @@ def test_both_sources_share_a_body_of_human_size():
     for clip in clips:
         moved = onto_common_body(clip, body, table_for(clip.skeleton))
         assert 0.75 < np.median(moved.root_position[:, 1]) < 1.15
+
+
+def test_a_runner_runs_on_the_floor_the_walker_walks_on():
+    runs = ("Male1_C01_StandToRun.bvh", "Male1_C03_Run.bvh", "Male1_C11_RunTurnLeft90.bvh")
+    walks = ("Male1_B3_Walk.bvh", "Male1_B1_StandToWalk.bvh", "Male1_B9_WalkToTurnLeft90.bvh")
+    clips = [source_clip("dataset3", name) for name in runs + walks]
+    body, table = common_body_of(clips), table_for(clips[0].skeleton)
+    together = [
+        onto_common_body(clip, body, table, floor) for clip, floor in zip(clips, floors_of(clips, body), strict=True)
+    ]
+    for clip in together:
+        ankles, balls = heights_above_rest(body, *clip_places(clip))
+        assert abs(np.percentile(ankles, 2)) < 0.008, clip.name
+        assert abs(np.percentile(balls, 2)) < 0.008, clip.name
+    standing = [np.median(together[number].root_position[:25, 1]) for number in (0, 4, 5)]
+    assert np.ptp(standing) < 0.012
+    alone = onto_common_body(clips[0], body, table)
+    assert alone.root_position[60:, 1].mean() - together[0].root_position[60:, 1].mean() > 0.03

@@ -48,8 +48,9 @@ def test_captured_frames_cost_what_brute_force_finds(clips, costs):
         assert costs[i, j] == pytest.approx(found, abs=1e-6)
 
 
-# 0.2 is above the trial's 0.47: the common body stands on the floor, while the files' floors differ by centimetres
-@pytest.mark.parametrize(("threshold", "share"), [(0.2, 0.67), (1.0, 0.77), (5.0, 0.94), (10.0, 0.97)])
+# 0.2 is above the trial's 0.47. These files' own joints give 0.57 here with the floor as captured, which slopes by
+# 0.9 %, and 0.65 with it level; the rest must lie in how the trial chose transitions. Above 0.5 floors hardly matter.
+@pytest.mark.parametrize(("threshold", "share"), [(0.2, 0.65), (1.0, 0.77), (5.0, 0.94), (10.0, 0.97)])
 def test_the_connected_share_is_near_the_trials(clips, costs, threshold, share):
     nodes = nodes_of(clips, ("stop", "walk", "run", "jump"))
     edges = edges_of(nodes.ends, local_minima(costs, nodes.lengths, threshold))
@@ -63,3 +64,20 @@ def test_half_of_the_frames_are_connected_by_a_threshold_below_the_papers(clips,
     needed = connecting_threshold(nodes.ends, local_minima(costs, nodes.lengths))
     assert needed is not None
     assert 0.05 < needed < 0.6
+
+
+def test_running_is_out_of_reach_at_the_papers_threshold_for_its_motion_and_not_for_its_height(clips, costs):
+    nodes = nodes_of(clips, ("stop", "walk", "run", "jump"))
+    running = np.concatenate([clip.labels for clip in clips]) == "run"
+    heights = np.concatenate([clip_places(clip)[0][..., 1] for clip in clips]).mean(axis=1)
+    held = {}
+    for threshold in (1.0, 1.7, 3.0):
+        edges = edges_of(nodes.ends, local_minima(costs, nodes.lengths, threshold))
+        held[threshold] = running[largest_component(len(costs), edges.source, edges.target)].sum()
+    assert held[1.0] == 0
+    assert held[1.7] > 0.3 * running.sum()
+    assert held[3.0] > 0.7 * running.sum()
+    owner = np.repeat(np.arange(len(clips)), nodes.lengths)
+    between = np.where(running[:, None] & running & (owner[:, None] != owner), costs, np.inf)
+    nearest = between.argmin(axis=1)[running]
+    assert abs(np.median(heights[running] - heights[nearest])) < 0.01

@@ -1,11 +1,17 @@
-"""The floor of a capture: found where feet stand still, turned level and brought to y = 0. Source: convention.
+"""The floor of captures: found where feet stand still, turned level and brought to y = 0. Source: convention.
 
 Capture volumes are rarely level: a floor that rises by 1 to 2 % lifts a walker by 5 cm in three metres, which is
-more than the height that tells a standing foot from a swinging one.
+more than the height that tells a standing foot from a swinging one. One person's captures share a volume, and their
+floor is found together: runners' feet hardly ever stand still, and those that do push their balls centimetres deep,
+so that a run by itself would be lifted above the same person's walks.
 """
+
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
 
 from footwork.motion import quaternion
 from footwork.motion.body import FEET
@@ -22,15 +28,45 @@ _TIPTOE = 0.045  # metres
 _HEIGHT_SPREAD = 0.015  # metres, of one stance about the floor
 _SLOPE_SPREAD = 0.015  # of a capture's floor: what a fit over a short way is held to
 _FOOT_SPREAD = 0.01  # metres, by which one foot is captured higher than the middle, the other lower
+_CAPTURE_SPREAD = 0.005  # metres, by which one capture is higher or lower than the others of a person
 # Feet held still in the air (a kick, a lying body) drop out as the fit closes in on the floor.
 _WINDOWS = (0.08, 0.05, 0.03, 0.03)  # metres
 _START_PERCENTILE = 20.0
+# A capture whose feet typically stand further than this from its person's floor was made on another.
+_FURTHEST = 0.08  # metres
 
 
-def level_floor(
-    body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64], fps: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The motion turned and moved as a whole so that standing feet are on the level floor y = 0.
+@dataclass(frozen=True)
+class Floor:
+    """A plane: its slopes along x and z, and its height at x = z = 0, metres."""
+
+    slope_x: float
+    slope_z: float
+    height: float
+
+    def level(
+        self, places: NDArray[np.float64], turns: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Places (..., 3) and rotations (..., 4) turned and moved as a whole so that this floor becomes y = 0."""
+        turn = quaternion.between([-self.slope_x, 1.0, -self.slope_z], [0.0, 1.0, 0.0])
+        return quaternion.rotate(turn, places - [0.0, self.height, 0.0]), quaternion.multiply(turn, turns)
+
+
+@dataclass(frozen=True, eq=False)
+class Footing:
+    """Where the feet of one capture stand.
+
+    Args:
+        rank: how slow the feet are there: 0 for solid stances, then ever weaker evidence.
+        stances: x, z and height above rest, metres, and side: -1 left, 1 right, 0 neither.  # (N, 4), N > 0
+    """
+
+    rank: int
+    stances: NDArray[np.float64]
+
+
+def footing_of(body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float64], fps: float) -> Footing:
+    """Where feet keep still, by the strictest test that any of them passes.
 
     Args:
         body: the common body.
@@ -39,17 +75,34 @@ def level_floor(
         fps: frames a second.
 
     Returns:
-        places (F, J, 3) and rotations (F, J, 4).
+        the stances; for feet that never pause a single one, at a low percentile of their heights.
     """
-    stances = next((found for test in _STILL if len(found := _stances(body, places, turns, fps, *test))), None)
-    if stances is None:
-        lowest = np.minimum(*heights_above_rest(body, places, turns)).min(axis=1)
-        return places - [0.0, float(np.percentile(lowest, GROUND_PERCENTILE)), 0.0], turns
-    slope_x, slope_z, height = _plane(stances)
-    level = quaternion.between([-slope_x, 1.0, -slope_z], [0.0, 1.0, 0.0])
-    middle = np.array([*stances[:, :2].mean(axis=0), height])[[0, 2, 1]]
-    turned = quaternion.rotate(level, places - middle) + middle * [1.0, 0.0, 1.0]
-    return turned, quaternion.multiply(level, turns)
+    for rank, (slowest, shortest) in enumerate(_STILL):
+        stances = _stances(body, places, turns, fps, slowest, shortest)
+        if len(stances):
+            return Footing(rank, stances)
+    lowest = np.minimum(*heights_above_rest(body, places, turns)).min(axis=1)
+    x, _, z = places[:, 0].mean(axis=0)
+    return Footing(len(_STILL), np.array([[x, z, np.percentile(lowest, GROUND_PERCENTILE), 0.0]]))
+
+
+def floors_under(captures: Sequence[Footing]) -> list[Floor]:
+    """The floor of each of one person's captures: one plane for all, each within millimetres of it.
+
+    The captures with the most solid stances give the plane; the others take it. Those that stand off it, made in
+    another volume, have a floor each of their own.
+    """
+    best = min(capture.rank for capture in captures)
+    shared = _planes([capture.stances if capture.rank == best else capture.stances[:0] for capture in captures])
+    return [
+        floor if _stands_on(capture, floor) else _planes([capture.stances])[0]
+        for capture, floor in zip(captures, shared, strict=True)
+    ]
+
+
+def _stands_on(capture: Footing, floor: Floor) -> bool:
+    heights = capture.stances[:, 2] - capture.stances[:, :2] @ [floor.slope_x, floor.slope_z] - floor.height
+    return bool(np.median(np.abs(heights)) < _FURTHEST)
 
 
 def _stances(
@@ -74,19 +127,27 @@ def _stances(
     return np.array(found).reshape(-1, 4)
 
 
-def _plane(stances: NDArray[np.float64]) -> tuple[float, float, float]:
-    """Slopes along x and z, and height in the middle of the stances, of the floor under them.
+def _planes(captures: Sequence[NDArray[np.float64]]) -> list[Floor]:
+    """The floor of each capture under its stances (N, 4): slopes in common, heights close to each other.
 
-    Least squares with a prior on each slope and on the feet's difference, over the stances near the plane so far.
+    Least squares with a prior on each slope, on the feet's difference and on the captures', over the stances near
+    the floor so far.
     """
-    sides = np.stack([stances[:, 3], np.ones(len(stances))], axis=-1)
-    design = np.concatenate([stances[:, :2] - stances[:, :2].mean(axis=0), sides], axis=-1)
-    spreads = np.array([_SLOPE_SPREAD, _SLOPE_SPREAD, _FOOT_SPREAD, np.inf])
-    prior = np.diag((_HEIGHT_SPREAD / spreads) ** 2)
-    plane = np.array([0.0, 0.0, 0.0, np.percentile(stances[:, 2], _START_PERCENTILE)])
+    stances = np.concatenate(captures)
+    middle = stances[:, :2].mean(axis=0)
+    owners = np.repeat(np.arange(len(captures)), [len(own) for own in captures])
+    owned = sparse.csr_array((np.ones(len(stances)), (np.arange(len(stances)), owners)), (len(stances), len(captures)))
+    columns = [stances[:, :2] - middle, stances[:, 3:], owned, np.ones((len(stances), 1))]
+    design = sparse.csr_array(sparse.hstack(columns))
+    spreads = [_SLOPE_SPREAD, _SLOPE_SPREAD, _FOOT_SPREAD, *[_CAPTURE_SPREAD] * len(captures), np.inf]
+    prior = np.diag((_HEIGHT_SPREAD / np.array(spreads)) ** 2)
+    plane = np.zeros(len(spreads))
+    plane[-1] = np.percentile(stances[:, 2], _START_PERCENTILE)
     for window in _WINDOWS:
         near = np.abs(stances[:, 2] - design @ plane) < window
         if not near.any():
             break
-        plane = np.linalg.solve(design[near].T @ design[near] + prior, design[near].T @ stances[near, 2])
-    return float(plane[0]), float(plane[1]), float(plane[3])
+        chosen = design[near]
+        plane = np.linalg.solve((chosen.T @ chosen).toarray() + prior, chosen.T @ stances[near, 2])
+    at_origin = plane[-1] - middle @ plane[:2]
+    return [Floor(float(plane[0]), float(plane[1]), float(at_origin + own)) for own in plane[3:-1]]

@@ -15,7 +15,7 @@ from footwork.motion import quaternion
 from footwork.motion.body import NAMES, PARENTS, default_body
 from footwork.motion.clip import Clip
 from footwork.motion.contacts import detect_contacts
-from footwork.motion.floor_plane import level_floor
+from footwork.motion.floor_plane import Floor, floors_under, footing_of
 from footwork.motion.grounding import lay_feet
 from footwork.motion.ik import leg, reach
 from footwork.motion.kinematics import forward, local_rotations
@@ -59,20 +59,38 @@ def common_body_of(clips: Sequence[Clip], tables: Sequence[NameTable] = ()) -> S
     """
     if not clips:
         raise InputError("there are no clips, expected at least one", "common body")
-    people: dict[bytes, list[Clip]] = {}
-    for clip in clips:
-        people.setdefault(_person(clip.skeleton), []).append(clip)
-    shapes = [_person_offsets(own, table_for(own[0].skeleton, tables)) for own in people.values()]
+    shapes = [_person_offsets(own, table_for(own[0].skeleton, tables)) for own in _people(clips)]
     return _body_with(_symmetric(np.mean(shapes, axis=0)))
 
 
-def onto_common_body(clip: Clip, body: Skeleton, table: NameTable) -> Clip:
+def floors_of(clips: Sequence[Clip], body: Skeleton, tables: Sequence[NameTable] = ()) -> list[Floor]:
+    """The floor of each clip, at the scale of the common body ``body``; found together for each person's clips.
+
+    Raises:
+        InputError: for a skeleton that no table fits, or legs that have no length.
+    """
+    floors: dict[int, Floor] = {}
+    for own in _people(clips):
+        table = table_for(own[0].skeleton, tables)
+        footings = [footing_of(body, *_scaled_pose(clip, body, table), clip.fps) for clip in own]
+        floors |= zip(map(id, own), floors_under(footings), strict=True)
+    return [floors[id(clip)] for clip in clips]
+
+
+def onto_common_body(clip: Clip, body: Skeleton, table: NameTable, floor: Floor | None = None) -> Clip:
     """``clip`` moved by the common body ``body``, feet on y = 0, with contacts; labels and rate are kept.
+
+    Args:
+        clip: capture as read.
+        body: the common body.
+        table: what the clip's joints are called.
+        floor: what ``floors_of`` found; without it the floor that this clip shows by itself, which for a short run
+            may be centimetres off.
 
     Raises:
         InputError: where the clip's skeleton lacks a joint of the table or its legs have no length.
     """
-    places, turns = level_floor(body, *_scaled_pose(clip, body, table), clip.fps)
+    places, turns = _levelled_pose(clip, body, table, floor)
     turns = _lean_spine(body, places, _aimed(body, places, turns))
     at = _chain(body, places, turns)
     ankles, turns = lay_feet(body, places, turns)
@@ -85,13 +103,22 @@ def onto_common_body(clip: Clip, body: Skeleton, table: NameTable) -> Clip:
     return replace(mapped, contacts=detect_contacts(mapped))
 
 
-def captured_places(clip: Clip, body: Skeleton, table: NameTable) -> NDArray[np.float64]:
+def captured_places(clip: Clip, body: Skeleton, table: NameTable, floor: Floor | None = None) -> NDArray[np.float64]:
     """Where the captured joints are at the common body's scale and floor: what a mapping is measured against.
 
     Returns:
         places of the common body's joints as captured, metres.  # (F, J, 3)
     """
-    return level_floor(body, *_scaled_pose(clip, body, table), clip.fps)[0]
+    return _levelled_pose(clip, body, table, floor)[0]
+
+
+def _levelled_pose(
+    clip: Clip, body: Skeleton, table: NameTable, floor: Floor | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    places, turns = _scaled_pose(clip, body, table)
+    if floor is None:
+        (floor,) = floors_under([footing_of(body, places, turns, clip.fps)])
+    return floor.level(places, turns)
 
 
 def _ankle_targets(
@@ -165,6 +192,14 @@ def _chain(body: Skeleton, places: NDArray[np.float64], turns: NDArray[np.float6
     local = local_rotations(body, turns)
     middle = quaternion.rotate(turns[:, 0], body.offsets[_THIGHS].mean(axis=0))
     return forward(body, places[:, _THIGHS].mean(axis=1) - middle, local)[0]
+
+
+def _people(clips: Sequence[Clip]) -> list[list[Clip]]:
+    """The clips of each person, in their order."""
+    people: dict[bytes, list[Clip]] = {}
+    for clip in clips:
+        people.setdefault(_person(clip.skeleton), []).append(clip)
+    return list(people.values())
 
 
 def _person(skeleton: Skeleton) -> bytes:

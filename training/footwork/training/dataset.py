@@ -12,6 +12,7 @@ from footwork.errors import InputError
 from footwork.motion.bvh import CENTIMETRE
 from footwork.motion.capture import EXTENSIONS, read_capture, skeleton_of
 from footwork.motion.clip import Clip
+from footwork.motion.floor_plane import Floor
 from footwork.motion.frame_tables import (
     FrameRange,
     frame_labels,
@@ -23,7 +24,7 @@ from footwork.motion.frame_tables import (
 )
 from footwork.motion.name_table import NameTable, read_name_table, table_for
 from footwork.motion.resample import COMMON_RATE, resample, whole_steps
-from footwork.motion.retarget import common_body_of, onto_common_body
+from footwork.motion.retarget import common_body_of, floors_of, onto_common_body
 from footwork.motion.skeleton import Skeleton
 
 # From the root to the furthest tip a person measures about 1.2 m; outside these the unit must be wrong.
@@ -66,8 +67,9 @@ def load_clips(
 ) -> Dataset:
     """Every motion file of a folder, by name, as clips on one common body.
 
-    Files are mapped whole and cut afterwards, so that the floor and the contacts of a short part rest on all of its
-    file. Times of a part start at its first source frame. A part's clip is called ``FILE[START:END]``.
+    Files are mapped whole and cut afterwards, so that the contacts of a short part rest on all of its file, and its
+    floor on all files used of the same person. Times of a part start at its first source frame. A part's clip is
+    called ``FILE[START:END]``.
 
     Args:
         directory: folder of ``.bvh`` and ``.amc`` files; folders in it are not looked into.
@@ -89,11 +91,15 @@ def load_clips(
     if range_rows is not None:
         paths = _named(paths, range_rows)
     sources = [_read(path, label_rows, range_rows, name_tables, bvh_unit) for path in paths]
+    resampled = [resample(source.clip) for source in sources]
     if body is None:
-        body = common_body_of([resample(source.clip) for source in sources], name_tables)
+        body = common_body_of(resampled, name_tables)
+    floors = floors_of(resampled, body, name_tables)
     attribution = dict.fromkeys(source.table.attribution for source in sources if source.table.attribution)
     return Dataset(
-        clips=tuple(clip for source in sources for clip in _mapped(source, body)),
+        clips=tuple(
+            clip for source, floor in zip(sources, floors, strict=True) for clip in _mapped(source, body, floor)
+        ),
         files=tuple(entry for source in sources for entry in _provenance(source)),
         attribution=tuple(attribution),
     )
@@ -161,7 +167,7 @@ def _require_human_size(clip: Clip) -> None:
         )
 
 
-def _mapped(source: _Source, body: Skeleton) -> list[Clip]:
+def _mapped(source: _Source, body: Skeleton, floor: Floor) -> list[Clip]:
     """A clip for each part, cut from the mapping of the whole file whose times meet the part's first frame."""
     step = source.clip.fps / COMMON_RATE
     whole: dict[float, Clip] = {}
@@ -169,7 +175,7 @@ def _mapped(source: _Source, body: Skeleton) -> list[Clip]:
     for start, end in source.parts:
         phase = round(start % step, 6)
         if phase not in whole:
-            whole[phase] = onto_common_body(resample(source.clip, through=start), body, source.table)
+            whole[phase] = onto_common_body(resample(source.clip, through=start), body, source.table, floor)
         first = whole_steps(start, source.clip.fps, COMMON_RATE)
         count = 1 + whole_steps(end - 1 - start, source.clip.fps, COMMON_RATE)
         clips.append(replace(whole[phase].cut(first, first + count), name=_name(source, start, end)))
