@@ -1,5 +1,6 @@
 """Compile the kernels of a build while something else goes on, such as reading the files to build from."""
 
+from contextlib import suppress
 from threading import Thread
 
 import numpy as np
@@ -20,9 +21,15 @@ _FRAMES = 30
 
 def start_warming() -> Thread:
     """Warm up on a thread of its own; a build that comes too early just waits for the kernels it needs."""
-    thread = Thread(target=warm, name="warm", daemon=True)
+    thread = Thread(target=_warm_while_running, name="warm", daemon=True)
     thread.start()
     return thread
+
+
+def _warm_while_running() -> None:
+    # A program that ends early (bad input, say) takes no new work any more, and needs none of it warm.
+    with suppress(RuntimeError):
+        warm()
 
 
 def warm() -> None:
