@@ -35,6 +35,19 @@ def test_the_port_that_was_taken_is_told(router, dealer):
     assert router.receive() is None
 
 
+def test_a_message_of_very_many_frames_is_read_in_pieces(router, dealer):
+    dealer.send_multipart([b"part"] * 5000)
+    dealer.send(b"hello")
+    assert router.poll(2000)
+    peer, *parts = router.receive()
+    assert parts == [b"part", b"part"]
+    pieces = 0
+    while (message := router.receive()) is None and pieces < 1000:
+        pieces += router.poll(2000) > 0
+    assert message == [peer, b"hello"]
+    assert 4998 // 256 <= pieces <= 5000 // 256 + 1
+
+
 def test_a_peer_that_does_not_read_loses_messages_and_takes_no_time(router, dealer):
     dealer.send(b"hello")
     router.poll(2000)
@@ -56,7 +69,9 @@ def test_a_peer_that_left_is_told_of(router, dealer):
     assert sent is Sent.GONE
 
 
-@pytest.mark.parametrize("bind", ["tcp://127.0.0.1:notaport", "nonsense", "tcp://300.1.1.1:5", "ftp://127.0.0.1:1"])
+@pytest.mark.parametrize(
+    "bind", ["tcp://127.0.0.1:notaport", "nonsense", "tcp://300.1.1.1:5", "ftp://127.0.0.1:1", "tcp://127.0.0.1:65536"]
+)
 def test_an_address_that_cannot_be_bound_is_the_callers_error(bind):
     with pytest.raises(InputError, match="cannot bind"):
         Router(bind)

@@ -16,6 +16,11 @@ _FRAME_BYTES = 1 << 16
 _SEND_QUEUE = 512
 _RECEIVE_QUEUE = 512
 _HEARTBEAT_MS = 2000
+# A message has two frames, the peer's name and the bytes. One of very many frames is read no further than this ...
+_FRAMES = 3
+# ... and what is left of it is passed over so many frames at a time, so that it holds no tick up.
+_PASSED_OVER = 256
+_MOST_PORT = 65535
 
 
 class Sent(Enum):
@@ -37,6 +42,7 @@ class Router:
     """
 
     def __init__(self, bind: str = DEFAULT_BIND) -> None:
+        _require_port(bind)
         self._context = zmq.Context()
         self._socket = self._context.socket(zmq.ROUTER)
         options = {
@@ -63,11 +69,24 @@ class Router:
         return bool(self._socket.poll(milliseconds))
 
     def receive(self) -> list[bytes] | None:
-        """The next message's frames, the peer first; None where there is none."""
+        """The next message's first frames, the peer's name before all; None where there is none for now."""
+        if not self._pass_over():
+            return None
         try:
-            return self._socket.recv_multipart(zmq.NOBLOCK)
+            frames = [self._socket.recv(zmq.NOBLOCK)]
         except zmq.Again:
             return None
+        while len(frames) < _FRAMES and self._socket.get(zmq.RCVMORE):
+            frames.append(self._socket.recv(zmq.NOBLOCK))  # all of a message is there once its first frame is
+        return frames
+
+    def _pass_over(self) -> bool:
+        """Pass over what is left of a message with too many frames; whether all of it is."""
+        for _ in range(_PASSED_OVER):
+            if not self._socket.get(zmq.RCVMORE):
+                return True
+            self._socket.recv(zmq.NOBLOCK)
+        return False
 
     def send(self, peer: bytes, data: bytes) -> Sent:
         """Hand a message to the transport; where the peer's queue is full it is dropped."""
@@ -85,6 +104,13 @@ class Router:
         """Close, giving what is queued ``linger`` seconds to leave."""
         self._socket.close(linger=round(1000.0 * linger))
         self._context.term()
+
+
+def _require_port(bind: str) -> None:
+    """Refuse a TCP port that is too high: libzmq takes it modulo 65536 and listens where nobody looks."""
+    port = bind.rpartition(":")[2]
+    if bind.startswith("tcp://") and port.isdecimal() and int(port) > _MOST_PORT:
+        raise InputError(f"cannot bind: port {port}, expected at most {_MOST_PORT}", bind)
 
 
 def is_local(address: str) -> bool:

@@ -144,7 +144,7 @@ class Server:
             if len(parts) == 2:
                 self._host.receive(parts[0], parts[1], now_ns())
             else:
-                self._host.refuse(parts[0], PeerError(MALFORMED, f"{len(parts) - 1} parts, expected 1"))
+                self._host.refuse(parts[0], PeerError(MALFORMED, "more or fewer parts than the one expected"))
 
     def _show(self, frame: int) -> int:
         """Make the tick if its first frame is due, send the frame's poses; nanoseconds that took."""
