@@ -145,6 +145,11 @@ def test_a_threshold_that_connects_nothing_is_answered_with_one_that_would(captu
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("seconds", ["-3", "nan", "0"])
+def test_serve_refuses_a_time_that_never_ends_or_never_begins(bundle, seconds):
+    assert "expected more than 0" in footwork("serve", bundle[0], "--seconds", seconds, status=2).stderr
+
+
 @pytest.mark.parametrize("rate", ["0", "50"])
 def test_serve_refuses_a_rate_it_cannot_keep(bundle, rate):
     assert "expected one of (30, 60, 120)" in footwork("serve", bundle[0], "--rate", rate, status=2).stderr

@@ -8,6 +8,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from footwork.cli.output import emit, log
+from footwork.errors import InputError
 
 
 def serve(
@@ -36,6 +37,8 @@ def serve(
     from footwork.runtime.server import Server
     from footwork.runtime.signals import stopped_by_signals
 
+    if seconds is not None and not seconds > 0.0:
+        raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
     server = Server(read_bundle(bundle), bind=bind, rate=rate, inertialise=inertialise)
     end = math.inf if seconds is None else time.monotonic() + seconds
     with stopped_by_signals(server):
