@@ -89,6 +89,17 @@ def test_rest_pose_hangs_bones_end_to_start(tmp_path: Path):
     np.testing.assert_allclose(clip.skeleton.ends, np.array([[0, 0, 0]] * 3 + [[0, 0, 1]]) * UNIT)
 
 
+@pytest.mark.parametrize("order", ["XYZ", "ZYX", "YZX"])
+def test_an_axis_is_turned_by_its_angles_in_the_order_it_names(tmp_path: Path, order: str):
+    path = tmp_path / "01.asf"
+    path.write_text(ASF.replace("axis 10 20 30 XYZ", f"axis 10 20 30 {order}"))
+    asf = read_asf(path)
+    axis = Rotation.from_quat(asf.axes[asf.skeleton.index("thigh")])
+    # lower case: about fixed axes, the first named first
+    expected = Rotation.from_euler(order.lower(), [10, 20, 30], degrees=True)
+    assert (axis * expected.inv()).magnitude() < 1e-12
+
+
 def test_bone_turns_by_its_degrees_of_freedom_about_its_axis(tmp_path: Path):
     def turn(x: float, y: float, z: float) -> Rotation:
         return Rotation.from_matrix(

@@ -194,8 +194,10 @@ def test_places_that_cannot_be_read_or_written(tmp_path):
 def test_writing_over_a_bundle_leaves_the_old_or_the_new(tmp_path):
     path = tmp_path / "b.footwork"
     write_bundle(path, sample_bundle(5))
-    old = read_bundle(path)
-    write_bundle(path, sample_bundle(7))
+    old, before = read_bundle(path), path.read_bytes()
+    with path.open("rb") as still_open:
+        write_bundle(path, sample_bundle(7))
+        assert still_open.read() == before
     assert old.graph.node_count == 5
     assert old.graph.target[4] == 0
     assert read_bundle(path).graph.node_count == 7

@@ -46,6 +46,30 @@ def test_flickers_shorter_than_half_the_median_filter_go():
     assert not point_contacts(points, 120.0)[105:115].any()
 
 
+@pytest.mark.parametrize(("speed", "stands"), [(0.19, True), (0.21, False)])
+def test_a_foot_comes_to_stand_below_the_speed_of_the_convention(speed, stands):
+    points = np.stack([np.zeros(60), np.full(60, 0.03), speed * np.arange(60) / 30.0], axis=-1)
+    assert (point_contacts(points, 30.0) == stands).all()
+
+
+@pytest.mark.parametrize(("speed", "stands"), [(0.34, True), (0.36, False)])
+def test_a_standing_foot_leaves_above_the_speed_of_the_convention(speed, stands):
+    steps = np.where(np.arange(60) < 30, 0.0, speed / 30.0)
+    points = np.stack([np.zeros(60), np.full(60, 0.03), np.cumsum(steps)], axis=-1)
+    found = point_contacts(points, 30.0)
+    assert found[:28].all()
+    assert (found[32:] == stands).all()
+
+
+def test_the_ground_is_the_second_percentile_of_the_heights():
+    height = np.full(1000, 0.041)
+    height[:30] = 0.0  # three in a hundred are lower by more than a foot may stand above the ground
+    points = np.stack([np.zeros(1000), height, np.zeros(1000)], axis=-1)
+    assert not point_contacts(points, 1.0)[40:].any()
+    points[:30, 1] = [0.0] * 15 + [0.041] * 15
+    assert point_contacts(points, 1.0)[40:].all()
+
+
 def test_hysteresis_holds_between_the_thresholds():
     height = np.full(60, 0.03)
     height[20:25] = 0.03 + 0.032  # above on, below off

@@ -63,6 +63,15 @@ def test_facing_is_the_yaw_of_a_turned_rest_pose(yaw):
     assert kinematics.facing_yaw(BODY, places) == pytest.approx(yaw)
 
 
+@given(seeds)
+def test_facing_is_across_times_up_of_hips_and_shoulders_alike(seed):
+    places, _ = kinematics.forward(BODY, *random_pose(seed))
+    place = {name: places[:, joint] for joint, name in enumerate(BODY.names)}
+    across = place["left_thigh"] - place["right_thigh"] + place["left_upper_arm"] - place["right_upper_arm"]
+    facing = np.cross(across, [0.0, 1.0, 0.0])
+    assert np.allclose(kinematics.facing_yaw(BODY, places), np.arctan2(facing[:, 0], facing[:, 2]))
+
+
 def test_central_velocity_is_exact_on_a_straight_line_and_zero_for_one_frame():
     line = np.outer(np.arange(5) / 30.0, [1.0, 2.0, 3.0])
     assert np.allclose(kinematics.central_velocity(line, 30.0), [1.0, 2.0, 3.0])

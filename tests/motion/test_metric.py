@@ -93,6 +93,12 @@ def test_lifting_a_clip_costs_the_height_squared():
     np.testing.assert_allclose(np.diag(lifted[:30, 30:]), (0.1 / UNIT) ** 2, atol=1e-9)
 
 
+def test_a_cost_of_one_is_5_644_cm():
+    clip = places((30,))[0]
+    lifted = PointCloudMetric([clip, clip + np.array([0.0, 0.05644, 0.0])]).all_pairs()
+    np.testing.assert_allclose(np.diag(lifted[:30, 30:]), 1.0, atol=1e-9)
+
+
 def test_the_alignment_moves_one_window_onto_the_other(metric):
     clip = places((40,))[0]
     x, z = turn(clip[..., 0], clip[..., 2], -1.1)

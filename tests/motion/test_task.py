@@ -13,6 +13,32 @@ TASK = SteeringTask()
 STOP, WALK, RUN, JUMP = range(4)
 
 
+def test_the_task_is_that_of_the_papers():
+    # papers.md 5: 36 bins, 30 degrees, sigma 1, discount 0.98
+    assert (TASK.heading_bins, TASK.smoothness_sigma, TASK.discount) == (36, 1.0, 0.98)
+    assert math.degrees(TASK.heading_sigma) == pytest.approx(30.0)
+
+
+def test_of_equal_edges_the_first_is_taken():
+    best = np.full(1, -1, dtype=np.int32)
+    lookahead.best_edges(
+        node=np.zeros(1, np.int32),
+        heading=np.zeros(1),
+        wanted=np.zeros(1, np.int32),
+        headed=np.zeros(1, np.bool_),
+        sigma=1.0,
+        discount=0.9,
+        values=np.ones((2, 1, 4), np.float32),
+        edge_start=np.array([0, 3, 3], np.int32),
+        target=np.array([0, 1, 1], np.int32),
+        behaviour=np.array([-1, 0], np.int16),
+        turn=np.zeros(3, np.float32),
+        smoothness=np.ones(3, np.float32),
+        best=best,
+    )
+    assert best[0] == 1
+
+
 def test_quality_is_a_gaussian_of_the_heading_where_the_heading_counts():
     deltas = np.radians([0.0, 30.0, -30.0, 330.0, 180.0])
     expected = [1.0, math.exp(-0.5), math.exp(-0.5), math.exp(-0.5), math.exp(-18.0)]
