@@ -4,7 +4,7 @@ import random
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import msgpack
 import pytest
@@ -126,6 +126,25 @@ def test_ping_does_not_wait_for_a_tick_and_loses_no_poses(client):
         time.sleep(0.005)
     assert min(trips) < 1 / 120
     assert consecutive(numbers + ticks(client, 5))
+
+
+def test_a_flood_of_messages_holds_no_tick_up(server, client):
+    with stranger(server) as flooding:
+        end = time.monotonic() + 1.0
+
+        def flood() -> None:
+            while time.monotonic() < end:
+                with suppress(zmq.Again):
+                    flooding.send(bytes(1000), zmq.NOBLOCK)
+
+        thread = threading.Thread(target=flood)
+        thread.start()
+        begun = time.monotonic()
+        seen = ticks(client, 25)
+        assert time.monotonic() - begun < 1.5
+        thread.join()
+    assert seen == list(range(seen[0], seen[0] + 25))
+    assert server.summary()["refused"] > 500
 
 
 def test_a_command_that_came_before_the_deadline_takes_effect_though_the_server_was_held_up():

@@ -22,7 +22,8 @@ from footwork.runtime.simulation import Simulation
 
 RATES = (30, 60, 120)
 _MILLISECOND = 1_000_000
-_BATCH = 64
+_GRACE = 8
+"""At a deadline, what has come in is taken for up to this part of a frame period, should there be so much of it."""
 _FAREWELL = 0.5
 
 
@@ -64,7 +65,6 @@ class Server:
         self._host = Host(Simulation(bundle, limits.characters, inertialise=inertialise), rate, limits)
         self._router = Router(bind)
         self._clock = FrameClock(rate, now_ns())
-        self._drain_limit = max(4 * _BATCH, 4 * limits.sessions)
         self._stopping = False
         self._ended = threading.Event()
 
@@ -132,15 +132,13 @@ class Server:
             if left < _MILLISECOND:
                 time.sleep(left / SECOND)
             elif self._router.poll(left // _MILLISECOND):
-                self._drain(_BATCH)
+                self._drain(deadline)
                 self._flush()
-        self._drain(self._drain_limit)
+        self._drain(now_ns() + self._clock.period // _GRACE)
 
-    def _drain(self, limit: int) -> None:
-        for _ in range(limit):
-            parts = self._router.receive()
-            if parts is None:
-                return
+    def _drain(self, end: int) -> None:
+        """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
+        while now_ns() < end and (parts := self._router.receive()) is not None:
             if len(parts) == 2:
                 self._host.receive(parts[0], parts[1], now_ns())
             else:
