@@ -8,12 +8,12 @@ import json
 import sys
 
 import numpy as np
-from machine import matrix_product_peak, seconds_of, spread
-from motions import benchmark_clips
 
 from footwork.motion.kinematics import clip_places
 from footwork.motion.metric import UNIT, PointCloudMetric
 from footwork.motion.window import LENGTH, RADIUS, window_frames, window_weights
+from support.machine import matrix_product_peak, seconds_of, spread
+from support.motions import benchmark_clips
 
 
 def plain_costs(places: np.ndarray, lengths: list[int]) -> np.ndarray:

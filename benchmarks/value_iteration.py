@@ -4,8 +4,6 @@ import json
 import sys
 
 import numpy as np
-from machine import memory_bandwidth, seconds_of, spread
-from motions import benchmark_clips
 
 from footwork.motion.metric import PointCloudMetric
 from footwork.motion.task import SteeringTask
@@ -14,6 +12,8 @@ from footwork.training.nodes import nodes_of
 from footwork.training.standard_graph import standard_graph
 from footwork.training.transitions import local_minima
 from footwork.training.value_iteration import solve
+from support.machine import memory_bandwidth, seconds_of, spread
+from support.motions import benchmark_clips
 
 
 def main(threshold: float = 1.0, repeats: int = 5) -> None:

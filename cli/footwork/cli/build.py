@@ -1,14 +1,20 @@
 """``footwork build``: motion capture to bundle."""
 
+from __future__ import annotations
+
+import math
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from footwork.cli.motions import AS_USUAL, Reading, load_motions
-from footwork.cli.output import emit, progress
+from footwork.cli.output import emit, log, progress
 from footwork.errors import InputError
+
+if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help answers at once
+    from footwork.training.dataset import Dataset
 
 GRAPHS = ("standard",)
 
@@ -42,13 +48,14 @@ def build(
     from footwork.training.build import build_bundle
     from footwork.training.warm import start_warming
 
-    _check_options(graph, out)
+    _check_options(graph, threshold, out)
     started = time.perf_counter()
     start_warming()
     task = SteeringTask(discount=discount)
     with progress() as report_progress:
         report_progress("reading motions", 0.0)
         dataset = load_motions(motions, reading)
+        _tell_unlabelled(dataset)
         read = time.perf_counter() - started
         bundle, report = build_bundle(dataset, threshold=threshold, task=task, progress=report_progress)
         digest = write_bundle(out, bundle)
@@ -56,8 +63,21 @@ def build(
     emit(report | {"seconds": seconds, "digest": digest}, json, str(out))
 
 
-def _check_options(graph: str, out: Path) -> None:
+def _check_options(graph: str, threshold: float, out: Path) -> None:
+    """Refuse at once what would otherwise be refused after minutes of work."""
     if graph not in GRAPHS:
         raise InputError(f"{graph!r} is not a graph that can be built, there is {', '.join(GRAPHS)}", "--graph")
+    if not (math.isfinite(threshold) and threshold > 0.0):
+        raise InputError(f"{threshold}, expected a positive number", "--threshold")
     if not out.parent.is_dir():
         raise InputError(f"no folder {out.parent}, expected one that exists", "--out")
+    if out.is_dir():
+        raise InputError(f"{out} is a folder, expected a file to write", "--out")
+
+
+def _tell_unlabelled(dataset: Dataset) -> None:
+    """Say how much has no label: it shows no behaviour, so it may be a slip in the table of labels."""
+    frames = sum(clip.frame_count for clip in dataset.clips)
+    unlabelled = sum(int((clip.labels == "").sum()) for clip in dataset.clips)
+    if unlabelled:
+        log(f"{unlabelled} of {frames} frames have no label and so no behaviour that can be asked for")

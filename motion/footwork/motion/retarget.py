@@ -139,8 +139,6 @@ def _scaled_pose(clip: Clip, body: Skeleton, table: NameTable) -> tuple[NDArray[
     """The captured pose with its lengths and travel scaled by the legs', so that steps fit the body's legs."""
     places, turns = source_pose(clip, table)
     captured = sum(_distance(places[:, a], places[:, b]) for a, b in ((_THIGHS, _SHANKS), (_SHANKS, _ANKLES)))
-    if not captured > _SHORTEST:
-        raise InputError("the legs have no length, expected thighs, shanks and feet at places of their own", clip.name)
     own = sum(np.linalg.norm(body.offsets[joints], axis=-1).mean() for joints in (_SHANKS, _ANKLES))
     return places * (own / captured), turns
 

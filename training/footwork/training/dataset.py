@@ -109,11 +109,16 @@ def _motion_files(folder: Path) -> list[Path]:
     try:
         entries = sorted(folder.iterdir())
     except (OSError, ValueError) as error:
-        raise InputError(f"cannot be read ({error}), expected a folder of motion files", folder) from None
+        raise InputError(f"cannot be read ({_why(error)}), expected a folder of motion files", folder) from None
     paths = [path for path in entries if path.suffix.lower() in EXTENSIONS and not path.name.startswith(".")]
     if not paths:
         raise InputError(f"has no motion files, expected some of {', '.join(EXTENSIONS)}", folder)
     return paths
+
+
+def _why(error: OSError | ValueError) -> str:
+    """The reason without the path, which the message names already."""
+    return getattr(error, "strerror", None) or str(error)
 
 
 def _rows(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from footwork.motion.clip import Clip
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 MOTIONS = ROOT.parent / "shared" / "motions"
 # the lengths of dataset3's core ranges, 2,721 frames in all
 LENGTHS = (120, 183, 246, 227, 306, 218, 181, 236, 210, 156, 189, 96, 46, 121, 81, 105)
