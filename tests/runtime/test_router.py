@@ -1,5 +1,6 @@
 """The ROUTER socket: addresses, dead and slow peers."""
 
+import socket
 import time
 
 import pytest
@@ -7,6 +8,15 @@ import zmq
 
 from footwork.errors import InputError
 from footwork.runtime.router import Router, Sent, is_local
+
+
+def has_ipv6() -> bool:
+    try:
+        with socket.socket(socket.AF_INET6) as probe:
+            probe.bind(("::1", 0))
+    except OSError:
+        return False
+    return True
 
 
 @pytest.fixture
@@ -18,11 +28,11 @@ def router():
 
 @pytest.fixture
 def dealer(router):
-    socket = zmq.Context.instance().socket(zmq.DEALER)
-    socket.set(zmq.RCVHWM, 10)
-    socket.connect(router.address)
-    yield socket
-    socket.close(linger=0)
+    peer = zmq.Context.instance().socket(zmq.DEALER)
+    peer.set(zmq.RCVHWM, 10)
+    peer.connect(router.address)
+    yield peer
+    peer.close(linger=0)
 
 
 def test_the_port_that_was_taken_is_told(router, dealer):
@@ -33,6 +43,16 @@ def test_the_port_that_was_taken_is_told(router, dealer):
     assert router.send(peer, b"answer") is Sent.QUEUED
     assert dealer.recv() == b"answer"
     assert router.receive() is None
+
+
+@pytest.mark.skipif(not has_ipv6(), reason="this machine has no IPv6")
+def test_an_ipv6_address_is_bound_and_local():
+    router = Router("tcp://[::1]:0")
+    try:
+        assert router.address.startswith("tcp://[::1]:")
+        assert is_local(router.address)
+    finally:
+        router.close()
 
 
 def test_a_message_of_very_many_frames_is_read_in_pieces(router, dealer):

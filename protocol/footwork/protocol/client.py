@@ -9,6 +9,7 @@ from typing import Self
 import zmq
 
 from footwork.protocol import messages as m
+from footwork.protocol.address import is_ipv6, port_fits
 from footwork.protocol.codec import SERVER_MESSAGE_BYTES
 from footwork.protocol.connection import Connection, Role, State
 from footwork.protocol.errors import LocalError, RefusedError
@@ -48,6 +49,9 @@ class Client:
         self._ping_every = self.welcome.idle_seconds / 3.0 or float("inf")
 
     def _connect(self, address: str) -> None:
+        if not port_fits(address):
+            raise LocalError(f"address {address!r}: a port is at most 65535")
+        self._socket.set(zmq.IPV6, is_ipv6(address))
         try:
             self._socket.connect(address)
         except zmq.ZMQError as error:

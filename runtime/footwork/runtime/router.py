@@ -7,6 +7,7 @@ from enum import Enum
 import zmq
 
 from footwork.errors import InputError
+from footwork.protocol.address import is_ipv6, port_fits
 
 log = logging.getLogger(__name__)
 
@@ -20,7 +21,6 @@ _HEARTBEAT_MS = 2000
 _FRAMES = 3
 # ... and what is left of it is passed over so many frames at a time, so that it holds no tick up.
 _PASSED_OVER = 256
-_MOST_PORT = 65535
 
 
 class Sent(Enum):
@@ -42,7 +42,8 @@ class Router:
     """
 
     def __init__(self, bind: str = DEFAULT_BIND) -> None:
-        _require_port(bind)
+        if not port_fits(bind):
+            raise InputError("cannot bind: a port is at most 65535", bind)
         self._context = zmq.Context()
         self._socket = self._context.socket(zmq.ROUTER)
         options = {
@@ -50,6 +51,7 @@ class Router:
             zmq.SNDHWM: _SEND_QUEUE,
             zmq.RCVHWM: _RECEIVE_QUEUE,
             zmq.MAXMSGSIZE: _FRAME_BYTES,
+            zmq.IPV6: is_ipv6(bind),
             zmq.HEARTBEAT_IVL: _HEARTBEAT_MS,
             zmq.HEARTBEAT_TIMEOUT: 3 * _HEARTBEAT_MS,
         }
@@ -104,13 +106,6 @@ class Router:
         """Close, giving what is queued ``linger`` seconds to leave."""
         self._socket.close(linger=round(1000.0 * linger))
         self._context.term()
-
-
-def _require_port(bind: str) -> None:
-    """Refuse a TCP port that is too high: libzmq takes it modulo 65536 and listens where nobody looks."""
-    port = bind.rpartition(":")[2]
-    if bind.startswith("tcp://") and port.isdecimal() and int(port) > _MOST_PORT:
-        raise InputError(f"cannot bind: port {port}, expected at most {_MOST_PORT}", bind)
 
 
 def is_local(address: str) -> bool:

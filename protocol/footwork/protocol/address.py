@@ -1,0 +1,14 @@
+"""What both ends must know of an address before libzmq sees it."""
+
+_MOST_PORT = 65535
+
+
+def port_fits(address: str) -> bool:
+    """Whether the TCP port is at most 65535: libzmq takes a higher one modulo 65536 and goes where nobody looks."""
+    port = address.rpartition(":")[2]
+    return not (address.startswith("tcp://") and port.isdecimal() and int(port) > _MOST_PORT)
+
+
+def is_ipv6(address: str) -> bool:
+    """Whether the host is an IPv6 address in brackets, for which libzmq wants to be told."""
+    return address.startswith("tcp://[")
