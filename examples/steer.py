@@ -10,10 +10,11 @@ from footwork.protocol.client import DEFAULT_ADDRESS, Client
 from footwork.protocol.pose_arrays import root_of
 
 TICKS = 90
+PATIENCE = 60.0  # seconds; a server's first start on a machine compiles before it answers
 
 
 def main(address: str = DEFAULT_ADDRESS) -> None:
-    with Client(address, name="steer.py") as client:
+    with Client(address, name="steer.py", timeout=PATIENCE) as client:
         behaviours = client.welcome.behaviours
         behaviour = "walk" if "walk" in behaviours else behaviours[0]
         client.spawn(0)
