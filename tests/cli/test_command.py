@@ -49,7 +49,7 @@ def bundle(captures):
 def test_build_reports_what_it_did(bundle):
     path, report = bundle
     assert set(report) >= {"frames", "nodes", "edges", "scc_nodes", "scc_fraction", "threshold", "seconds", "digest"}
-    assert set(report["seconds"]) == {"read", "metric", "graph", "policy", "total"}
+    assert set(report["seconds"]) == {"read", "compile", "metric", "graph", "policy", "total"}
     assert report["policy"]["converged"] is True
     assert report["digest"] == read_bundle(path).digest
     assert 0 < report["scc_nodes"] <= report["nodes"] == report["frames"]
