@@ -40,6 +40,9 @@ def worst(ours: dict[str, NDArray[np.float64]], theirs: dict[str, NDArray[np.flo
 def main() -> None:
     """Check every file under the folder named on the command line, or beside the checkout."""
     motions = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT.parent / "shared" / "motions"
+    if not motions.is_dir():
+        print(json.dumps({"skipped": f"no motion capture at {motions}"}))
+        return
     report = {"files": 0, "frames": 0, "worst_error_m": 0.0, "round_trip_error_m": 0.0}
     with TemporaryDirectory() as folder:
         copy = Path(folder) / "copy.bvh"
