@@ -1,7 +1,7 @@
 """Throughput of the point-cloud metric over all pairs of frames: ``python benchmarks/metric.py`` prints JSON.
 
 Rates are set against this machine's matrix-product peak, measured in the same run, and against the plain form of
-the formula in numpy: five products of the full depth of a window (papers.md 1).
+the formula in numpy: five products of the full depth of a window (conventions.md 1).
 """
 
 import json

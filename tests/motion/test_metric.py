@@ -27,7 +27,7 @@ def costs(metric):
 
 
 def numpy_costs(points, windows, joint_weights):
-    """The flat form of papers.md 1: windows centred one by one, five products of their full depth."""
+    """The flat form of conventions.md 1: windows centred one by one, five products of their full depth."""
     weights = (window_weights()[:, None] * joint_weights).ravel()
     x, y, z = np.moveaxis(points[windows].reshape(len(windows), -1, 3), -1, 0)
     x, z = x - (x @ weights)[:, None], z - (z @ weights)[:, None]

@@ -14,7 +14,7 @@ STOP, WALK, RUN, JUMP = range(4)
 
 
 def test_the_task_is_that_of_the_papers():
-    # papers.md 5: 36 bins, 30 degrees, sigma 1, discount 0.98
+    # conventions.md 5: 36 bins, 30 degrees, sigma 1, discount 0.98
     assert (TASK.heading_bins, TASK.smoothness_sigma, TASK.discount) == (36, 1.0, 0.98)
     assert math.degrees(TASK.heading_sigma) == pytest.approx(30.0)
 

@@ -35,7 +35,7 @@ def test_a_perfect_follower_scores_one():
 
 
 def test_a_character_that_ignores_its_orders_scores_as_the_papers_say():
-    """papers.md 5: the mean of the Gaussian of 30 degrees over all headings is 0.21."""
+    """conventions.md 5: the mean of the Gaussian of 30 degrees over all headings is 0.21."""
     report = measures.quality(followed(3600, heading=np.arange(3600) / 10.0, facing=0.0))
     assert report["control"] == pytest.approx(0.209, abs=0.001)
     assert report["heading_error_deg"]["mean"] == pytest.approx(90.0, abs=0.1)

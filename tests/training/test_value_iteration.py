@@ -133,7 +133,7 @@ def test_sweeps_residual_and_progress_are_reported():
 
 
 def test_a_turn_slower_than_a_bin_is_not_stuck():
-    """papers.md 5: with nearest-bin rounding a turn of 1.5 degrees a frame never leaves its bin."""
+    """conventions.md 5: with nearest-bin rounding a turn of 1.5 degrees a frame never leaves its bin."""
     slow = math.radians(1.5)
     task = SteeringTask(behaviours=("walk",))
     ring = ring_graph(2, behaviours=("walk",))

@@ -1,4 +1,4 @@
-"""Commands: from held keys, or heading and behaviour outright, to what a controller is asked for (design.md)."""
+"""Commands: from held keys, or heading and behaviour outright, to what a controller is asked for."""
 
 import math
 from collections.abc import Collection

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from footwork.controllers.command import NONE, Command
 
 LATCH_TICKS = 30
-"""How long a one-shot behaviour waits to be entered: 1 s (design.md, "From keys to commands")."""
+"""How long a one-shot behaviour waits to be entered: 1 s (convention)."""
 
 
 class Orders:

@@ -24,7 +24,7 @@ def first_outside(index: NDArray, length: int) -> int:
 
 
 class SteeringController:
-    """Chooses edges on one graph by one policy table (papers.md 5).
+    """Chooses edges on one graph by one policy table (conventions.md 5).
 
     Args:
         graph: where the characters are.

@@ -22,7 +22,7 @@ def align(first: ArrayLike, second: ArrayLike, weights: ArrayLike) -> Alignment:
     """The best alignment of ``second`` onto ``first``, for many pairs of clouds at once.
 
     Clouds are centred before they are multiplied, so that places far from the origin cost no accuracy. Where the
-    yaw makes no difference (every point on one upright line) it is 0. Source: papers.md 1, fixed weights.
+    yaw makes no difference (every point on one upright line) it is 0. Source: conventions.md 1, fixed weights.
 
     Args:
         first: points of the first clouds, metres.  # (..., P, 3)

@@ -1,4 +1,4 @@
-"""The windowed cost of every pair of frames at once: matrix products, then sums along their diagonals (papers.md 1)."""
+"""The windowed cost of all pairs of frames at once: matrix products, then sums along diagonals (conventions.md 1)."""
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor

@@ -1,6 +1,6 @@
 """Which feet stand on the ground at which frame, from heights and speeds with hysteresis.
 
-Source: papers.md 3 (convention). A foot has two points, ankle and ball, and stands while either of them does: the
+Source: conventions.md 3 (convention). A foot has two points, ankle and ball, and stands while either of them does: the
 heel lands before the ball and leaves before it, and neither common source of capture has a heel joint.
 """
 

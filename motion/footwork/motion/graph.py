@@ -45,7 +45,7 @@ class MotionGraph:
         skeleton: the common body.
         clips: names of the source clips.
         labels: the words that frames are labelled with.
-        behaviours: the behaviours that commands may ask for (papers.md 5).
+        behaviours: the behaviours that commands may ask for (conventions.md 5).
         clip: source clip of each node, an index into ``clips``.  # (N,)
         frame: source frame of each node, at 30 Hz within its clip.  # (N,)
         label: index into ``labels``.  # (N,)
@@ -57,7 +57,7 @@ class MotionGraph:
         angular_velocity: of each local rotation, in the parent's frame, rad/s.  # (N, J, 3)
         edge_start: edges of node n are ``edge_start[n]:edge_start[n + 1]``.  # (N + 1,)
         target: the node an edge leads to.  # (E,)
-        cost: dissimilarity s of the frames an edge joins, 0 for natural edges (papers.md 2).  # (E,)
+        cost: dissimilarity s of the frames an edge joins, 0 for natural edges (conventions.md 2).  # (E,)
         smoothness: exp(-s / sigma), 1 for natural edges.  # (E,)
         displacement: the target's planar place (x, z, yaw) in the source's planar frame, metres and radians.  # (E, 3)
         natural: whether the edge follows the capture.  # (E,)

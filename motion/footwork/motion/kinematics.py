@@ -51,7 +51,7 @@ def local_rotations(skeleton: Skeleton, world: ArrayLike) -> NDArray[np.float64]
 def facing_yaw(skeleton: Skeleton, places: ArrayLike) -> NDArray[np.float64]:
     """Yaw of the horizontal part of across x up, where across runs from right to left hip plus shoulder.
 
-    Source: papers.md 5 (convention). The skeleton is the common body; ``places`` is (..., J, 3), the result (...).
+    Source: conventions.md 5 (convention). The skeleton is the common body; ``places`` is (..., J, 3), the result (...).
     """
     places = np.asarray(places, dtype=np.float64)
     left = skeleton.indices(["left_thigh", "left_upper_arm"])

@@ -1,7 +1,7 @@
 """One-step lookahead on interpolated values: what an edge is worth under a command, and which edge is best.
 
 The solver and the controller use the same kernels, so the policy that was solved for is the policy that is played.
-Nearest-bin rounding would leave slow turns stuck in their bin (papers.md 5), so values are always interpolated.
+Nearest-bin rounding would leave slow turns stuck in their bin (conventions.md 5), so values are always interpolated.
 """
 
 import math
@@ -46,7 +46,7 @@ def edge_value(
     sigma: float,
     discount: float,
 ) -> float:
-    """r + discount V' of one edge: r = qc qt, judged at the frame the edge leads to (papers.md 5).
+    """r + discount V' of one edge: r = qc qt, judged at the frame the edge leads to (conventions.md 5).
 
     Args:
         heading: wanted heading less facing before the edge, radians.

@@ -1,6 +1,6 @@
 """Masses of the common body's segments, as fractions of the body's mass.
 
-Source: papers.md 8 (Winter; de Leva 1996 for men and women). Where a table gives one number to a part that the
+Source: conventions.md 8 (Winter; de Leva 1996 for men and women). Where a table gives one number to a part that the
 common body splits, one joint carries it all: the thorax's mass includes the shoulders, the head's the neck and the
 foot's the toes, so clavicles, neck and toes have none.
 """
@@ -90,7 +90,7 @@ def segment_masses(names: tuple[str, ...], total: float = 75.0, source: str = "w
 def outward_sums(parents: ArrayLike, values: ArrayLike) -> NDArray[np.float64]:
     """Each joint's value plus those of all joints outward of it, parents before children.  # (J,) -> (J,)
 
-    With mass fractions this is the weight w_mass of the dynamics metric (papers.md 8).
+    With mass fractions this is the weight w_mass of the dynamics metric (conventions.md 8).
     """
     parents = np.asarray(parents)
     sums = np.array(values, dtype=np.float64)

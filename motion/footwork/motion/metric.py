@@ -14,7 +14,7 @@ from footwork.motion.clip import Clip
 from footwork.motion.kinematics import clip_places
 from footwork.motion.window import LENGTH, window_frames, window_weights
 
-UNIT = 0.05644  # metres: s = 1 is a root mean square distance of this much (papers.md 2)
+UNIT = 0.05644  # metres: s = 1 is a root mean square distance of this much (conventions.md 2)
 _PAIRS_AT_ONCE = 512
 
 
@@ -36,7 +36,7 @@ class Metric(Protocol):
 
 
 class PointCloudMetric:
-    """s = sum w |d|^2 / UNIT^2 over the joints of two windows, with fixed weights that sum to 1 (papers.md 1 and 2).
+    """s = sum w |d|^2 / UNIT^2 over the joints of two windows, fixed weights that sum to 1 (conventions.md 1 and 2).
 
     Frames are numbered through the clips laid end to end; a window past a clip's end repeats the end frame.
 

@@ -16,7 +16,7 @@ BEHAVIOURS = ("stop", "walk", "run", "jump")
 
 @dataclass(frozen=True)
 class SteeringTask:
-    """Relative heading x behaviour (papers.md 5).
+    """Relative heading x behaviour (conventions.md 5).
 
     Args:
         behaviours: what may be asked for.

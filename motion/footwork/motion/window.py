@@ -1,4 +1,4 @@
-"""The frames around a frame that stand for its dynamics: a centred window with quadratic weights (papers.md 1)."""
+"""The frames around a frame that stand for its dynamics: a centred window with quadratic weights (conventions.md 1)."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ LENGTH = 2 * RADIUS + 1
 def window_weights() -> NDArray[np.float64]:
     """W_k = 1 - (k / (L + 1))^2 for k = -L..L, normalised to sum 1, L = 5.  # (LENGTH,)
 
-    Source: papers.md 1 (convention).
+    Source: conventions.md 1 (convention).
     """
     k = np.arange(-RADIUS, RADIUS + 1)
     weights = 1.0 - (k / (RADIUS + 1)) ** 2

@@ -1,4 +1,4 @@
-"""The innermost loop of the metric: windowed sums along the diagonals of per-frame products (papers.md 1)."""
+"""The innermost loop of the metric: windowed sums along the diagonals of per-frame products (conventions.md 1)."""
 
 import math
 

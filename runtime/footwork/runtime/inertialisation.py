@@ -1,7 +1,7 @@
 """Inertialisation: what is left of the old motion after a jump in the graph, dying away over the new motion.
 
 At a transition the pose jumps. The difference between the pose last shown and the new motion becomes an offset with
-a velocity of its own, and both decay like a critically damped spring of half-life h (papers.md 10)::
+a velocity of its own, and both decay like a critically damped spring of half-life h (conventions.md 10)::
 
     y = 2 ln 2 / h    j = v + x y    x <- exp(-y t) (x + j t)    v <- exp(-y t) (v - j y t)
 
@@ -72,7 +72,7 @@ def _joint_offset(offset, velocity, old, old_spin, new, new_spin):
 
     The velocity of the pose shown is that of the offset, ``spin(x, v)``, plus that of the motion below it turned by
     the offset, ``exp(x) w``. Keeping their sum is exact for offsets of any size; to first order it is the rule
-    of papers.md 10, offset velocity = velocity of the source - velocity of the target.
+    of conventions.md 10, offset velocity = velocity of the source - velocity of the target.
 
     Args:
         offset: over the old motion.

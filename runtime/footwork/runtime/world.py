@@ -15,7 +15,7 @@ from footwork.runtime.rotation_kernels import turned
 
 NO_EDGE = -1
 HALFLIFE = 0.1
-"""Half-life of what inertialisation adds, s (papers.md 10)."""
+"""Half-life of what inertialisation adds, s (conventions.md 10)."""
 
 
 class WorldError(FootworkError):

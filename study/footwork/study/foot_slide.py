@@ -1,6 +1,6 @@
 """Foot slide: how far the balls of the feet move over the ground while they stand, cm per second of contact.
 
-Source: papers.md 7 (c) (convention). A step from one frame to the next counts for a foot that is in contact at both.
+Source: conventions.md 7 (convention). A step from one frame to the next counts for a foot that is in contact at both.
 """
 
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
 """The measures of how a character followed a player: functions of what was asked, shown and taken at each tick.
 
-Source of all definitions: papers.md 5, "Definitions C for Table 6", and 10, "Protocol C". Tick k is the command in
+Source of all definitions: conventions.md 5. Tick k is the command in
 force at k/30 s, the edge chosen for it, and the frame which that edge leads to, shown at (k + 1)/30 s; that frame is
 the one judged. Times therefore count from the command to the frame: the fastest possible answer takes 1/30 s.
 """
@@ -137,10 +137,10 @@ def jumps(followed: Followed) -> dict[str, int]:
 
 
 def quality(followed: Followed) -> dict[str, Any]:
-    """Control, Transition and Total: means over ticks, and their product (papers.md 5).
+    """Control, Transition and Total: means over ticks, and their product (conventions.md 5).
 
     ``transition_jumps`` is the mean qt over edges that are not natural, None without any;
-    ``total_by_tick`` is the mean of qc qt, the second figure that papers.md 5 asks for.
+    ``total_by_tick`` is the mean of qc qt, a second figure.
     """
     control, transition, jumped = followed.control, followed.transition, ~followed.natural
     return {

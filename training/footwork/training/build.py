@@ -63,7 +63,7 @@ def build_bundle(
 
     Args:
         motions: the clips and where they came from.
-        threshold: transitions must cost less than this s (papers.md 2).
+        threshold: transitions must cost less than this s (conventions.md 2).
         task: what may be asked for; the default steering task where not given.
         progress: told the stage ("metric", "graph", "policy") and the share of it that is done.
 

@@ -66,7 +66,7 @@ def nodes_of(clips: Sequence[Clip], behaviours: tuple[str, ...]) -> Nodes:
 
 
 def behaviours_of(labels: NDArray[np.str_], behaviours: tuple[str, ...]) -> NDArray[np.int16]:
-    """Index of each frame's behaviour, -1 for none (papers.md 5).  # (F,) -> (F,)
+    """Index of each frame's behaviour, -1 for none (conventions.md 5).  # (F,) -> (F,)
 
     A turn counts as walk, or as run where the frames before and after it run (or those on the one side there is).
     """

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.threads import THREADS
 
-MIN_GAP = 15  # frames: two frames of one clip nearer than 0.5 s are no transition (papers.md 2)
+MIN_GAP = 15  # frames: two frames of one clip nearer than 0.5 s are no transition (conventions.md 2)
 
 
 @dataclass(frozen=True, eq=False)

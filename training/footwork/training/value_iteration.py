@@ -1,4 +1,4 @@
-"""Value iteration: how much reward every frame promises under every command, if the command stays (papers.md 5)."""
+"""Value iteration: the reward every frame promises under every command, if the command stays (conventions.md 5)."""
 
 import math
 from collections.abc import Callable

@@ -12,7 +12,7 @@ from footwork.motion.skeleton import Skeleton
 def centre_of_mass(body: Skeleton, root: ArrayLike, rotations: ArrayLike) -> NDArray[np.float64]:
     """Places (..., 3) of the centre of mass, metres, for roots (..., 3) and local rotations (..., J, 4).
 
-    Each segment's mass lies half way along it (convention); fractions of mass as in papers.md 8 (Winter).
+    Each segment's mass lies half way along it (convention); fractions of mass as in conventions.md 8 (Winter).
     """
     places, turns = forward(body, root, rotations)
     centres = places + 0.5 * quaternion.rotate(turns, _tips(body))
