@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -45,10 +44,11 @@ def build(
     """
     from footwork.motion.bundle import write_bundle
     from footwork.motion.task import SteeringTask
-    from footwork.training.build import build_bundle
+    from footwork.training.build import build_bundle, require_threshold
     from footwork.training.warm import start_warming
 
-    _check_options(graph, threshold, out)
+    _check_options(graph, out)
+    require_threshold(threshold, "--threshold")
     started = time.perf_counter()
     warming = start_warming()
     task = SteeringTask(discount=discount)
@@ -66,12 +66,10 @@ def build(
     emit(report | {"seconds": seconds, "digest": digest}, json, str(out))
 
 
-def _check_options(graph: str, threshold: float, out: Path) -> None:
+def _check_options(graph: str, out: Path) -> None:
     """Refuse at once what would otherwise be refused after minutes of work."""
     if graph not in GRAPHS:
         raise InputError(f"{graph!r} is not a graph that can be built, there is {', '.join(GRAPHS)}", "--graph")
-    if not (math.isfinite(threshold) and threshold > 0.0):
-        raise InputError(f"{threshold}, expected a positive number", "--threshold")
     if not out.parent.is_dir():
         raise InputError(f"no folder {out.parent}, expected one that exists", "--out")
     if out.is_dir():

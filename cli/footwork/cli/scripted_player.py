@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from footwork.controllers.command import heading_of_keys
+from footwork.motion.angle import wrapped
 from footwork.protocol.client import Client
 from footwork.protocol.messages import Keys, Pose
 
@@ -119,4 +120,4 @@ class _Player:
 
 def _heading_error(pose: Pose, keys: Keys) -> float:
     wanted = heading_of_keys(keys.view_yaw, keys.forward, keys.strafe)
-    return float(np.degrees(np.abs((wanted - pose.facing + np.pi) % (2.0 * np.pi) - np.pi)))
+    return float(np.degrees(np.abs(wrapped(wanted - pose.facing))))

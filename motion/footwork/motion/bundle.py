@@ -59,9 +59,7 @@ class Bundle:
         graph = self.graph
         if graph.node_count == 0:
             raise InputError("no nodes, expected at least one", graph.where)
-        ends = np.flatnonzero(np.diff(graph.edge_start) == 0)
-        if ends.size:
-            raise InputError(f"node {ends[0]} leads nowhere, expected at least one edge from every node", graph.where)
+        graph.require_no_dead_ends()
 
     def _check_table(self, table: PolicyTable) -> None:
         graph = self.graph

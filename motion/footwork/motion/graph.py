@@ -130,6 +130,12 @@ class MotionGraph:
             if array.size and not (array.min() >= 0.0 and array.max() <= high):
                 raise InputError(f"{name} holds {array.min():g} to {array.max():g}, expected 0 to {high:g}", self.where)
 
+    def require_no_dead_ends(self) -> None:
+        """Raise InputError where a node has no edge: whoever came there could not go on."""
+        ends = np.flatnonzero(np.diff(self.edge_start) == 0)
+        if ends.size:
+            raise InputError(f"node {ends[0]} leads nowhere, expected at least one edge from every node", self.where)
+
     @property
     def node_count(self) -> int:
         """The number of nodes N."""

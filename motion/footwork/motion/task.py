@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.errors import InputError
+from footwork.motion.angle import wrapped
 
 BEHAVIOUR_OF_LABEL = {"idle": "stop", "walk": "walk", "turn": "walk", "run": "run", "jump": "jump"}
 HEADED = ("walk", "run")
@@ -64,6 +65,5 @@ class SteeringTask:
             wanted: index of the behaviour asked for.  # (...)
             shown: index of the behaviour of the frame judged, -1 for none.  # (...)
         """
-        wrapped = (np.asarray(delta) + np.pi) % (2.0 * np.pi) - np.pi
-        heading = np.where(self.headed[wanted], np.exp(-0.5 * (wrapped / self.heading_sigma) ** 2), 1.0)
+        heading = np.where(self.headed[wanted], np.exp(-0.5 * (wrapped(delta) / self.heading_sigma) ** 2), 1.0)
         return np.where(np.equal(wanted, shown), heading, 0.0)

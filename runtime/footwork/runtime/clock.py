@@ -7,7 +7,6 @@ the time of day does not touch.
 import time
 
 SECOND = 1_000_000_000
-TICK_RATE = 30
 
 now_ns = time.monotonic_ns
 

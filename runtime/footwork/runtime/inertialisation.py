@@ -15,6 +15,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.tick import TICK
 from footwork.runtime.motion_rows import SPIN, VELOCITY
 from footwork.runtime.rotation_kernels import (
     along,
@@ -30,9 +31,6 @@ from footwork.runtime.rotation_kernels import (
     spin,
     turned,
 )
-
-TICK = 1.0 / 30.0
-"""Seconds of one tick."""
 
 _NEGLIGIBLE = 1e-6
 _LARGE = 10.0

@@ -6,7 +6,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.runtime.inertialisation import TICK, decay_weights
+from footwork.motion.tick import TICK
+from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.motion_rows import SPIN, VELOCITY
 from footwork.runtime.rotation_kernels import along, before, column3, column4, exp, multiply, planar, turned
 

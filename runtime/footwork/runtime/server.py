@@ -11,8 +11,9 @@ from typing import Any
 
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
+from footwork.motion.tick import TICK_RATE
 from footwork.protocol.errors import MALFORMED, PeerError
-from footwork.runtime.clock import SECOND, TICK_RATE, FrameClock, now_ns
+from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.collector import collect_young, held_collector
 from footwork.runtime.host import Host
 from footwork.runtime.limits import Limits

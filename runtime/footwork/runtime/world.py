@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from footwork.errors import FootworkError
 from footwork.motion.graph import MotionGraph
+from footwork.motion.tick import TICK
 from footwork.runtime import posing
-from footwork.runtime.inertialisation import TICK, decay, jump, ticks_to_settle
+from footwork.runtime.inertialisation import decay, jump, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
 from footwork.runtime.rotation_kernels import turned
 

@@ -12,8 +12,7 @@ from footwork.motion import quaternion
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places, forward
-
-TICK = 1.0 / 30.0
+from footwork.motion.tick import TICK
 
 
 @dataclass(frozen=True)

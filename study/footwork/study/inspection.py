@@ -13,8 +13,8 @@ from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
 from footwork.motion.graph import ARRAYS, MotionGraph
 from footwork.motion.table import PolicyTable
+from footwork.motion.tick import TICK
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
-from footwork.study.measures import TICK
 from footwork.study.responsiveness import SAMPLES, evenly, responsiveness
 
 

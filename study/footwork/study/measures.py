@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.angle import wrapped
 from footwork.motion.task import BEHAVIOURS, HEADED, SteeringTask
+from footwork.motion.tick import TICK
 
-TICK = 1.0 / 30.0
 STEP = math.radians(15.0)
 """A command that turns by more than this in one tick is a step change; an error within it is settled."""
 TASK = SteeringTask()
@@ -53,7 +54,7 @@ class Followed:
     @property
     def error(self) -> NDArray[np.float64]:
         """How far the facing is off the wanted heading, 0..pi.  # (K,)"""
-        return np.abs(_wrapped(self.heading - self.facing))
+        return np.abs(wrapped(self.heading - self.facing))
 
     @property
     def control(self) -> NDArray[np.float64]:
@@ -114,7 +115,7 @@ def settling(followed: Followed) -> Answers:
     A step change is a wanted heading more than 15 degrees away from the last tick's, with walk or run asked for at
     both. It counts as unreached at the next step change, and when walking or running is no longer asked for.
     """
-    turned = np.abs(_wrapped(np.diff(followed.heading))) > STEP
+    turned = np.abs(wrapped(np.diff(followed.heading))) > STEP
     going = followed.headed[1:] & followed.headed[:-1]
     changes = np.flatnonzero(turned & going) + 1
     over = np.append(np.flatnonzero((turned & going) | ~followed.headed[1:]) + 1, len(followed.heading))
@@ -168,8 +169,3 @@ def mean_and_p95(values: NDArray) -> dict[str, float | None]:
     if not len(values):
         return {"mean": None, "p95": None}
     return {"mean": float(np.mean(values)), "p95": float(np.percentile(values, 95))}
-
-
-def _wrapped(angle: NDArray) -> NDArray[np.float64]:
-    """The same angle within -pi..pi."""
-    return (angle + np.pi) % (2.0 * np.pi) - np.pi

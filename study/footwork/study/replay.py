@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.task import BEHAVIOURS
+from footwork.motion.tick import TICK_RATE
 from footwork.runtime.world import World
 from footwork.study.foot_slide import Slide, shown_balls, slide_of_frames
 from footwork.study.measures import Followed
-from footwork.study.trace import TICK_HZ, SteeringCommands, Trace, steering_commands
+from footwork.study.trace import SteeringCommands, Trace, steering_commands
 
 
 class Controller(Protocol):
@@ -137,4 +138,4 @@ def _followed(graph: MotionGraph, commands: SteeringCommands, run: _Run) -> Foll
 
 def _slide(graph: MotionGraph, run: _Run) -> Slide:
     balls = shown_balls(graph, run.root, run.rotations)
-    return slide_of_frames(balls, graph.contacts[graph.target[run.edge]], TICK_HZ)
+    return slide_of_frames(balls, graph.contacts[graph.target[run.edge]], TICK_RATE)

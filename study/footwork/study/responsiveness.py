@@ -5,10 +5,12 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.angle import wrapped
 from footwork.motion.graph import MotionGraph
 from footwork.motion.task import HEADED, ONE_SHOT
+from footwork.motion.tick import TICK
 from footwork.runtime.world import World
-from footwork.study.measures import STEP, TICK, Answers
+from footwork.study.measures import STEP, Answers
 from footwork.study.replay import Controller
 
 SAMPLES = 64
@@ -27,7 +29,7 @@ def turn_times(graph: MotionGraph, controller: Controller, behaviour: str, radia
     starts = evenly(np.flatnonzero(graph.behaviour == index))
 
     def done(world: World) -> NDArray[np.bool_]:
-        return np.abs((radians - world.place[:, 2] + np.pi) % (2.0 * np.pi) - np.pi) <= STEP
+        return np.abs(wrapped(radians - world.place[:, 2])) <= STEP
 
     return _until(graph, controller, starts, radians, index, done)
 

@@ -7,8 +7,8 @@ import numpy as np
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
+from footwork.motion.tick import TICK_RATE
 from footwork.runtime.simulation import Simulation
-from footwork.study.trace import TICK_HZ
 
 
 def steered_clip(bundle: Bundle, orders: Sequence[tuple[float, float, str]]) -> Clip:
@@ -26,7 +26,7 @@ def steered_clip(bundle: Bundle, orders: Sequence[tuple[float, float, str]]) -> 
     root, rotations, nodes = [], [], []
     for seconds, heading, behaviour in orders:
         simulation.give(slot, simulation.vocabulary.outright(float(np.radians(heading)), behaviour))
-        for _ in range(round(seconds * TICK_HZ)):
+        for _ in range(round(seconds * TICK_RATE)):
             simulation.step()
             shown = simulation.show(1.0)
             root.append(shown.root[slot].copy())
@@ -37,7 +37,7 @@ def steered_clip(bundle: Bundle, orders: Sequence[tuple[float, float, str]]) -> 
     return Clip(
         name="steered",
         skeleton=graph.skeleton,
-        fps=float(TICK_HZ),
+        fps=float(TICK_RATE),
         root_position=np.array(root, dtype=np.float64),
         rotations=np.array(rotations, dtype=np.float64),
         contacts=graph.contacts[nodes],

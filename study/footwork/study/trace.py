@@ -16,9 +16,9 @@ from footwork.errors import InputError
 from footwork.motion.arrays import frozen
 from footwork.motion.task import BEHAVIOURS
 from footwork.motion.textfile import number, read_lines
+from footwork.motion.tick import TICK_RATE
 
 SOURCE_HZ = 35
-TICK_HZ = 30
 JUMP_SECONDS = 0.33
 """How long a press of attack asks for a jump."""
 JUMP_PAUSE = 2.0
@@ -157,7 +157,7 @@ def steering_commands(trace: Trace, start_facing: float, behaviours: Collection[
     behaviour = np.where(moving, behaviour, BEHAVIOURS.index("stop"))
     jump = jump_windows(trace.attack)
     behaviour = np.where(jump >= 0, BEHAVIOURS.index("jump"), behaviour)
-    latest = np.arange(-(-trace.ticks * TICK_HZ // SOURCE_HZ)) * SOURCE_HZ // TICK_HZ
+    latest = np.arange(-(-trace.ticks * TICK_RATE // SOURCE_HZ)) * SOURCE_HZ // TICK_RATE
     return SteeringCommands(
         heading=frozen(heading[latest], np.float64),
         behaviour=frozen(behaviour[latest], np.int32),

@@ -112,9 +112,14 @@ def build_bundle(
     return bundle, report
 
 
-def _check(clips: Sequence[Clip], threshold: float) -> None:
+def require_threshold(threshold: float, where: str = "threshold") -> None:
+    """Raise InputError unless the threshold is a positive number."""
     if not (math.isfinite(threshold) and threshold > 0.0):
-        raise InputError(f"{threshold} is no threshold, expected a positive number", "threshold")
+        raise InputError(f"{threshold} is no threshold, expected a positive number", where)
+
+
+def _check(clips: Sequence[Clip], threshold: float) -> None:
+    require_threshold(threshold)
     for clip in clips:
         if clip.frame_count < LENGTH:
             problem = f"{clip.frame_count} frames at 30 Hz, expected at least the {LENGTH} of the metric's window"

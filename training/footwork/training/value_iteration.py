@@ -75,9 +75,7 @@ def _check(graph: MotionGraph, task: SteeringTask) -> None:
     if graph.behaviours != task.behaviours:
         problem = f"behaviours {', '.join(task.behaviours)}, the graph has {', '.join(graph.behaviours)}"
         raise InputError(problem, "task")
-    ends = np.flatnonzero(np.diff(graph.edge_start) == 0)
-    if ends.size:
-        raise InputError(f"node {ends[0]} leads nowhere, expected at least one edge from every node", graph.where)
+    graph.require_no_dead_ends()
 
 
 def _model(graph: MotionGraph, task: SteeringTask) -> _Model:
