@@ -19,7 +19,7 @@ import numpy as np
 from footwork.controllers.steering import SteeringController
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
-from footwork.motion.graph import MotionGraph
+from footwork.motion.graph import MotionGraph, captured
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.runtime.warm import warm_kernels
@@ -35,9 +35,8 @@ def made_up_graph(random: np.random.Generator) -> MotionGraph:
     target = random.integers(0, NODES, edges)
     target[::EDGES_A_NODE] = (np.arange(NODES) + 1) % NODES
     natural = np.arange(edges) % EDGES_A_NODE == 0
-    arrays: dict[str, Any] = {
-        "clip": np.zeros(NODES),
-        "frame": np.arange(NODES),
+    arrays: dict[str, Any] = captured(np.zeros(NODES), np.arange(NODES))
+    arrays |= {
         "label": np.zeros(NODES),
         "behaviour": random.integers(0, 4, NODES),
         "contacts": np.zeros((NODES, len(body.feet))),

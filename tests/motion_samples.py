@@ -1,11 +1,13 @@
 """Small made-up clips and graphs for tests: smooth random motion of the common body, with a known seed."""
 
+from typing import Any
+
 import numpy as np
 
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
-from footwork.motion.graph import MotionGraph
+from footwork.motion.graph import MotionGraph, captured
 
 STRIDE = 32  # frames in which a sample clip's swing comes round again, so that clips meet themselves
 
@@ -42,13 +44,13 @@ def sample_clips(count: int = 4, frames: int = 120) -> list[Clip]:
 def ring_graph(nodes: int = 12, turn: float = 0.0, behaviours: tuple[str, ...] = ("stop", "walk")) -> MotionGraph:
     """A single loop of natural edges: every node walks 4 cm on and turns by ``turn`` radians."""
     body = default_body()
+    sources: dict[str, Any] = captured(np.zeros(nodes), np.arange(nodes))
     return MotionGraph(
+        **sources,
         skeleton=body,
         clips=("ring",),
         labels=("walk",),
         behaviours=behaviours,
-        clip=np.zeros(nodes, np.int32),
-        frame=np.arange(nodes, dtype=np.int32),
         label=np.zeros(nodes, np.int16),
         behaviour=np.full(nodes, behaviours.index("walk"), np.int16),
         contacts=np.zeros((nodes, len(body.feet)), np.bool_),

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from footwork.motion import kinematics, quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
-from footwork.motion.graph import MotionGraph
+from footwork.motion.graph import MotionGraph, captured
 
 FPS = 30.0
 BEHAVIOURS = ("stop", "walk", "run", "jump")
@@ -82,9 +82,9 @@ def graph_of(clips: list[Clip], jumps: list[tuple[int, int]], behaviour=None) ->
     sources = [edge[0] for edge in edges]
     natural = np.array([edge[3] for edge in edges])
     arrays: dict[str, Any] = {name: np.concatenate([part[name] for part in nodes]) for name in nodes[0]}
+    frames = np.concatenate([np.arange(length) for length in lengths])
+    arrays |= captured(np.repeat(np.arange(len(clips)), lengths), frames)
     arrays |= {
-        "clip": np.repeat(np.arange(len(clips)), lengths),
-        "frame": np.concatenate([np.arange(length) for length in lengths]),
         "label": np.zeros(count),
         "behaviour": np.ones(count) if behaviour is None else behaviour,
         "contacts": np.zeros((count, len(clips[0].skeleton.feet))),

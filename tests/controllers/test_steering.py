@@ -8,7 +8,7 @@ import pytest
 from footwork.controllers.steering import SteeringController, WrongQuestion
 from footwork.errors import InputError
 from footwork.motion.body import default_body
-from footwork.motion.graph import MotionGraph
+from footwork.motion.graph import MotionGraph, captured
 from footwork.motion.lookahead import edge_value
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
@@ -26,9 +26,8 @@ def loops() -> MotionGraph:
     yaw = np.tile([0.0, TURN, -TURN, 0.0], nodes)
     ahead = np.tile([0.04, 0.04, 0.04, 0.0], nodes)
     natural = np.eye(nodes, dtype=bool).ravel()
-    arrays: dict[str, Any] = {
-        "clip": np.zeros(nodes),
-        "frame": np.arange(nodes),
+    arrays: dict[str, Any] = captured(np.zeros(nodes), np.arange(nodes))
+    arrays |= {
         "label": np.zeros(nodes),
         "behaviour": [1, 1, 1, 0],
         "contacts": np.zeros((nodes, 2)),

@@ -17,7 +17,7 @@ from footwork.motion.skeleton import Skeleton
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 
-VERSION = 1
+VERSION = 2
 _BODY_ARRAYS = {
     "parents": np.int32,
     "offsets": np.float64,

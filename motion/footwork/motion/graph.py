@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion.arrays import frozen, require_finite, require_range, require_shape
@@ -12,10 +12,13 @@ from footwork.motion.skeleton import Skeleton
 NO_BEHAVIOUR = -1
 _UNIT_TOLERANCE = 1e-3
 
-# the arrays of a graph and what they hold
-ARRAYS = {
+# the arrays of a graph and what they hold, those of its nodes first
+NODE_ARRAYS = {
     "clip": np.int32,
     "frame": np.int32,
+    "other_clip": np.int32,
+    "other_frame": np.int32,
+    "weight": np.float32,
     "label": np.int16,
     "behaviour": np.int16,
     "contacts": np.bool_,
@@ -23,13 +26,22 @@ ARRAYS = {
     "rotations": np.float32,
     "root_velocity": np.float32,
     "angular_velocity": np.float32,
-    "edge_start": np.int32,
+}
+EDGE_ARRAYS = {
     "target": np.int32,
     "cost": np.float32,
     "smoothness": np.float32,
     "displacement": np.float32,
     "natural": np.bool_,
 }
+ARRAYS = NODE_ARRAYS | {"edge_start": np.int32} | EDGE_ARRAYS
+
+
+def captured(clip: ArrayLike, frame: ArrayLike) -> dict[str, NDArray]:
+    """The source arrays of nodes that are captured frames.  # (N,) each"""
+    clip, frame = np.asarray(clip), np.asarray(frame)
+    weight = np.ones(len(clip))
+    return {"clip": clip, "frame": frame, "other_clip": clip, "other_frame": frame, "weight": weight}
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +60,9 @@ class MotionGraph:
         behaviours: the behaviours that commands may ask for (conventions.md 5).
         clip: source clip of each node, an index into ``clips``.  # (N,)
         frame: source frame of each node, at 30 Hz within its clip.  # (N,)
+        other_clip: second source clip, ``clip`` itself for a captured frame.  # (N,)
+        other_frame: its frame, ``frame`` itself for a captured frame.  # (N,)
+        weight: share of the first source, above 0; 1 for a captured frame.  # (N,)
         label: index into ``labels``.  # (N,)
         behaviour: index into ``behaviours``, -1 where the label matches none.  # (N,)
         contacts: which feet stand on the ground.  # (N, feet)
@@ -73,6 +88,9 @@ class MotionGraph:
     behaviours: tuple[str, ...]
     clip: NDArray[np.int32]
     frame: NDArray[np.int32]
+    other_clip: NDArray[np.int32]
+    other_frame: NDArray[np.int32]
+    weight: NDArray[np.float32]
     label: NDArray[np.int16]
     behaviour: NDArray[np.int16]
     contacts: NDArray[np.bool_]
@@ -99,7 +117,7 @@ class MotionGraph:
 
     def _check_shapes(self) -> None:
         nodes, edges, joints = len(self.clip), len(self.target), self.skeleton.joint_count
-        shapes = dict.fromkeys(("clip", "frame", "label", "behaviour"), (nodes,))
+        shapes = dict.fromkeys(("clip", "frame", "other_clip", "other_frame", "weight", "label", "behaviour"), (nodes,))
         shapes |= dict.fromkeys(("target", "cost", "smoothness", "natural"), (edges,))
         shapes |= {"root_position": (nodes, 3), "root_velocity": (nodes, 3), "displacement": (edges, 3)}
         shapes |= {"rotations": (nodes, joints, 4), "angular_velocity": (nodes, joints, 3)}
@@ -113,6 +131,7 @@ class MotionGraph:
     def _check_indices(self) -> None:
         nodes, edges = self.node_count, self.edge_count
         require_range(self.clip, 0, len(self.clips), "clip", self.where)
+        require_range(self.other_clip, 0, len(self.clips), "other_clip", self.where)
         require_range(self.label, 0, len(self.labels), "label", self.where)
         require_range(self.behaviour, NO_BEHAVIOUR, len(self.behaviours), "behaviour", self.where)
         require_range(self.target, 0, nodes, "target", self.where)
@@ -125,16 +144,31 @@ class MotionGraph:
         if lengths.size and not np.abs(lengths - 1.0).max() < _UNIT_TOLERANCE:
             problem = f"rotations holds quaternions of length {lengths.min():g} to {lengths.max():g}, expected 1"
             raise InputError(problem, self.where)
-        for name, high in (("cost", np.inf), ("smoothness", 1.0)):
+        for name, high in (("cost", np.inf), ("smoothness", 1.0), ("weight", 1.0)):
             array = getattr(self, name)
             if array.size and not (array.min() >= 0.0 and array.max() <= high):
                 raise InputError(f"{name} holds {array.min():g} to {array.max():g}, expected 0 to {high:g}", self.where)
+        another = (self.clip != self.other_clip) | (self.frame != self.other_frame)
+        if (self.original & another).any():
+            node = np.flatnonzero(self.original & another)[0]
+            raise InputError(f"node {node} has weight 1 and yet another source than its own", self.where)
 
     def require_no_dead_ends(self) -> None:
         """Raise InputError where a node has no edge: whoever came there could not go on."""
         ends = np.flatnonzero(np.diff(self.edge_start) == 0)
         if ends.size:
             raise InputError(f"node {ends[0]} leads nowhere, expected at least one edge from every node", self.where)
+
+    @property
+    def original(self) -> NDArray[np.bool_]:
+        """Which nodes are captured frames, not frames between two.  # (N,)"""
+        return self.weight == 1.0
+
+    @property
+    def nearest_source(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Clip and frame of the source with the greater weight, of equal ones the first.  # (N,) each"""
+        first = self.weight >= 0.5
+        return np.where(first, self.clip, self.other_clip), np.where(first, self.frame, self.other_frame)
 
     @property
     def node_count(self) -> int:

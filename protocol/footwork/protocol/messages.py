@@ -211,7 +211,7 @@ class Pose(Message, frozen=True):
         acknowledged: highest sequence of this character's messages that took effect.
         facing: where it looks at the end of the tick, radians.
         behaviour: index into the welcome's behaviours, -1 for none.
-        clip: index into the welcome's clips.
+        clip: source of the frame, of two sources the nearer: index into the welcome's clips.
         source_frame: frame of that clip, at 30 a second.
         transition: whether the edge taken leaves the captured order.
         root: place of joint 0 in the world, metres: 3 float32, little-endian.

@@ -32,7 +32,7 @@ class PoseFrames:
         rotations: local rotations xyzw, joint 0 in the world.  # (capacity, J, 4) float32
         facing: yaw at the tick's moment, radians.  # (capacity,)
         behaviour: index into ``Simulation.behaviours``, -1 for none of them.  # (capacity,)
-        clip: index into the graph's clips.  # (capacity,)
+        clip: the source clip of the greater weight, an index into the graph's clips.  # (capacity,)
         source_frame: frame of that clip at 30 Hz.  # (capacity,)
         transition: whether the edge last taken leaves the captured order.  # (capacity,) bool
     """
@@ -76,6 +76,7 @@ class Simulation:
         self._orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._shown_as = self._numbering()
+        self._clip_of, self._frame_of = graph.nearest_source
         self._edges = np.zeros(capacity, dtype=np.int32)
         self._who = np.zeros(0, dtype=np.intp)
         self._note_actions()
@@ -138,8 +139,7 @@ class Simulation:
         """What every character does in this tick; the same in all of its frames."""
         graph, node = self.bundle.graph, self.world.node
         self._behaviour = self._shown_as[graph.behaviour[node]]
-        self._clip = graph.clip[node]
-        self._source_frame = graph.frame[node]
+        self._clip, self._source_frame = self._clip_of[node], self._frame_of[node]
         self._transition = ~graph.natural[self.world.edge]
 
     def show(self, fraction: float) -> PoseFrames:

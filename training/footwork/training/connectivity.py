@@ -7,22 +7,9 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from footwork.motion.graph import MotionGraph
+from footwork.motion.graph import EDGE_ARRAYS, NODE_ARRAYS, MotionGraph
 from footwork.training.standard_graph import edges_of
 from footwork.training.transitions import Minima
-
-_NODE_ARRAYS = (
-    "clip",
-    "frame",
-    "label",
-    "behaviour",
-    "contacts",
-    "root_position",
-    "rotations",
-    "root_velocity",
-    "angular_velocity",
-)
-_EDGE_ARRAYS = ("cost", "smoothness", "displacement", "natural")
 
 
 def largest_component(count: int, source: NDArray, target: NDArray) -> NDArray[np.intp]:
@@ -52,8 +39,8 @@ def restricted(graph: MotionGraph, nodes: NDArray[np.intp]) -> MotionGraph:
     number[nodes] = np.arange(len(nodes))
     source, target = number[graph.source], number[graph.target]
     kept = (source >= 0) & (target >= 0)
-    arrays = {name: getattr(graph, name)[nodes] for name in _NODE_ARRAYS}
-    arrays |= {name: getattr(graph, name)[kept] for name in _EDGE_ARRAYS}
+    arrays = {name: getattr(graph, name)[nodes] for name in NODE_ARRAYS}
+    arrays |= {name: getattr(graph, name)[kept] for name in EDGE_ARRAYS if name != "target"}
     start = np.searchsorted(source[kept], np.arange(len(nodes) + 1)).astype(np.int32)
     return replace(graph, edge_start=start, target=target[kept], **arrays)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.clip import Clip
-from footwork.motion.graph import NO_BEHAVIOUR
+from footwork.motion.graph import NO_BEHAVIOUR, captured
 from footwork.motion.kinematics import clip_places, facing_yaw
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.task import BEHAVIOUR_OF_LABEL
@@ -59,7 +59,7 @@ def nodes_of(clips: Sequence[Clip], behaviours: tuple[str, ...]) -> Nodes:
     arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     places = arrays.pop("places")
     lengths = tuple(clip.frame_count for clip in clips)
-    arrays["clip"] = np.repeat(np.arange(len(clips)), lengths)
+    arrays |= captured(np.repeat(np.arange(len(clips)), lengths), arrays["frame"])
     arrays["label"] = np.searchsorted(labels, np.concatenate([clip.labels for clip in clips]))
     arrays["behaviour"] = np.concatenate([behaviours_of(clip.labels, behaviours) for clip in clips])
     return Nodes(skeleton, tuple(clip.name for clip in clips), labels, behaviours, lengths, arrays, places)
