@@ -9,14 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.errors import InputError
-from footwork.motion import quaternion
 from footwork.motion.clip import Clip
 from footwork.motion.graph import NO_BEHAVIOUR, captured
-from footwork.motion.kinematics import clip_places, facing_yaw
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.task import BEHAVIOUR_OF_LABEL
-
-FPS = 30.0
+from footwork.training.planar_poses import FPS, planar_poses
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,11 +52,15 @@ def nodes_of(clips: Sequence[Clip], behaviours: tuple[str, ...]) -> Nodes:
     """
     skeleton = _common_skeleton(clips)
     labels = tuple(sorted({str(label) for clip in clips for label in np.unique(clip.labels)}))
-    parts = [_arrays(clip) for clip in clips]
-    arrays = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    places = arrays.pop("places")
     lengths = tuple(clip.frame_count for clip in clips)
-    arrays |= captured(np.repeat(np.arange(len(clips)), lengths), arrays["frame"])
+    root = np.concatenate([clip.root_position for clip in clips])
+    rotations = np.concatenate([clip.rotations for clip in clips])
+    arrays = planar_poses(skeleton, root, rotations, lengths)
+    places = arrays.pop("places")
+    arrays |= captured(
+        np.repeat(np.arange(len(clips)), lengths), np.concatenate([np.arange(length) for length in lengths])
+    )
+    arrays["contacts"] = np.concatenate([clip.contacts for clip in clips])
     arrays["label"] = np.searchsorted(labels, np.concatenate([clip.labels for clip in clips]))
     arrays["behaviour"] = np.concatenate([behaviours_of(clip.labels, behaviours) for clip in clips])
     return Nodes(skeleton, tuple(clip.name for clip in clips), labels, behaviours, lengths, arrays, places)
@@ -97,35 +98,3 @@ def _common_skeleton(clips: Sequence[Clip]) -> Skeleton:
         if clip.fps != FPS:
             raise InputError(f"{clip.fps:g} frames a second, expected {FPS:g}", clip.name)
     return body
-
-
-def _arrays(clip: Clip) -> dict[str, NDArray]:
-    yaw = facing_yaw(clip.skeleton, clip_places(clip)[0])
-    upright = quaternion.from_yaw(-yaw)
-    spin = _backward_spin(clip.rotations)
-    spin[:, 0] = quaternion.rotate(upright, spin[:, 0])
-    rotations = clip.rotations.copy()
-    rotations[:, 0] = quaternion.multiply(upright, rotations[:, 0])
-    ground = np.array([0.0, 1.0, 0.0])
-    return {
-        "frame": np.arange(clip.frame_count),
-        "contacts": clip.contacts,
-        "root_position": clip.root_position * ground,
-        "rotations": rotations,
-        "root_velocity": quaternion.rotate(upright, _backward(np.diff(clip.root_position, axis=0))),
-        "angular_velocity": spin,
-        "places": np.column_stack([clip.root_position[:, 0], clip.root_position[:, 2], yaw]),
-    }
-
-
-def _backward_spin(rotations: NDArray) -> NDArray[np.float64]:
-    """Angular velocity over the tick before each frame, in the parent's frame, rad/s.  # (F, J, 4) -> (F, J, 3)"""
-    steps = quaternion.multiply(rotations[1:], quaternion.conjugate(rotations[:-1]))
-    return _backward(quaternion.to_rotation_vector(steps))
-
-
-def _backward(steps: NDArray) -> NDArray[np.float64]:
-    """Velocities from the steps between frames; the first frame has that of the second.  # (F - 1, ...) -> (F, ...)"""
-    if not len(steps):
-        return np.zeros((1, *steps.shape[1:]))
-    return FPS * np.concatenate([steps[:1], steps])
