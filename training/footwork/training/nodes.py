@@ -55,7 +55,7 @@ def nodes_of(clips: Sequence[Clip], behaviours: tuple[str, ...]) -> Nodes:
     lengths = tuple(clip.frame_count for clip in clips)
     root = np.concatenate([clip.root_position for clip in clips])
     rotations = np.concatenate([clip.rotations for clip in clips])
-    arrays = planar_poses(skeleton, root, rotations, lengths)
+    arrays: dict[str, Any] = planar_poses(skeleton, root, rotations, lengths)
     places = arrays.pop("places")
     arrays |= captured(
         np.repeat(np.arange(len(clips)), lengths), np.concatenate([np.arange(length) for length in lengths])
