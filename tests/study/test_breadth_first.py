@@ -16,7 +16,7 @@ def test_ticks_are_those_of_the_nearest_source_and_back_those_to_it(graph, data)
     table = distances(*graph)
     back_start, before = reversed_edges(*graph)
     for ticks, expected in (
-        (ticks_from(*graph, sources), table[sources].min(axis=0)),
+        (ticks_from(graph[0], graph[1], sources), table[sources].min(axis=0)),
         (ticks_from(back_start, before, sources), table[:, sources].min(axis=1)),
     ):
         np.testing.assert_array_equal(np.where(ticks < 0, np.inf, ticks), expected)

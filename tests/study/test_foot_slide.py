@@ -35,3 +35,18 @@ def test_the_capture_in_a_graph_slides_as_its_natural_edges_move():
     graph = ring_graph(6)
     standing = type(graph)(**{**vars(graph), "contacts": np.ones((6, 2), dtype=bool)})
     assert slide_of_capture(standing).cm_per_second == pytest.approx(100 * 0.04 * 30, rel=1e-5)
+
+
+def test_only_captured_frames_of_the_clips_meant_are_the_capture():
+    graph = ring_graph(6)
+    arrays = vars(graph) | {
+        "contacts": np.ones((6, 2), dtype=bool),
+        "clips": ("ring", "other"),
+        "clip": np.repeat([0, 1], 3),
+        "other_clip": np.repeat([0, 1], 3),
+        "weight": np.array([1, 1, 0.5, 1, 1, 1]),
+    }
+    mixed = type(graph)(**arrays)
+    # of six steps, two touch the frame between two and one goes from clip to clip
+    assert slide_of_capture(mixed).seconds == pytest.approx(2 * 4 / 30)
+    assert slide_of_capture(mixed, [0]).seconds == pytest.approx(2 * 1 / 30)

@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -81,6 +82,15 @@ def test_a_clip_comes_back_out_of_its_graph_as_it_went_in():
 
 def both_places(before, after):
     return clip_places(before)[0], clip_places(after)[0]
+
+
+def test_frames_between_two_are_no_part_of_a_clip():
+    graph = graph_of([wandering_clip(seed, 12) for seed in range(2)], [(11, 12), (23, 0)])
+    weight = np.where(np.arange(24) < 5, 0.75, 1.0)
+    mixed = replace(graph, weight=weight, other_clip=np.where(weight < 1, 1, graph.clip))
+    assert [clip.frame_count for clip in clips_of_graph(mixed)] == [7, 12]
+    with pytest.raises(InputError, match="no node"):
+        clip_of_graph(replace(mixed, weight=np.where(graph.clip == 0, 0.5, 1.0)), 0)
 
 
 def test_a_clip_that_is_not_in_the_graph_is_refused():

@@ -57,9 +57,10 @@ def slide_of_clip(clip: Clip) -> Slide:
     return slide_of_frames(balls, clip.contacts, clip.fps)
 
 
-def slide_of_capture(graph: MotionGraph) -> Slide:
-    """The slide of the source clips themselves, over the natural edges of their graph."""
-    edges = np.flatnonzero(graph.natural)
+def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None) -> Slide:
+    """The slide of the source clips themselves, all or some, over the natural edges between captured frames."""
+    meant = graph.original if clips is None else graph.original & np.isin(graph.clip, clips)
+    edges = np.flatnonzero(graph.natural & meant[graph.source] & meant[graph.target])
     source, target = graph.source[edges], graph.target[edges]
     balls = forward(graph.skeleton, graph.root_position, graph.rotations)[0][:, graph.skeleton.feet[:, 1]]
     step = graph.displacement[edges].astype(np.float64)
