@@ -11,11 +11,12 @@ from cyclopts import Parameter
 from footwork.cli.motions import AS_USUAL, Reading, load_motions
 from footwork.cli.output import emit, log, progress
 from footwork.errors import InputError
+from footwork.training.graph_options import GraphOptions
 
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help answers at once
     from footwork.training.dataset import Dataset
 
-GRAPHS = ("standard",)
+_AS_USUAL = GraphOptions()
 
 
 def build(
@@ -23,8 +24,7 @@ def build(
     /,
     *,
     out: Path,
-    graph: str = "standard",
-    threshold: float = 1.0,
+    options: Annotated[GraphOptions, Parameter(name="*")] = _AS_USUAL,
     discount: float = 0.98,
     reading: Reading = AS_USUAL,
     json: Annotated[bool, Parameter(negative=())] = False,
@@ -36,19 +36,17 @@ def build(
     Args:
         motions: A folder of BVH or ASF/AMC files, or embedded:locomotion or embedded:fighting.
         out: The bundle to write; an older one there is replaced only once the new one is whole.
-        graph: The kind of motion graph: standard.
-        threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm).
+        options: The kind of motion graph and how it is built.
         discount: The worth of the next tick's reward against this one's.
         reading: How a folder of capture is read.
         json: Print the report as one JSON object.
     """
     from footwork.motion.bundle import write_bundle
     from footwork.motion.task import SteeringTask
-    from footwork.training.build import build_bundle, require_threshold
+    from footwork.training.build import build_bundle
     from footwork.training.warm import start_warming
 
-    _check_options(graph, out)
-    require_threshold(threshold, "--threshold")
+    _check_place(out)
     started = time.perf_counter()
     warming = start_warming()
     task = SteeringTask(discount=discount)
@@ -60,16 +58,14 @@ def build(
         report_progress("compiling", 0.0)
         warming.join()
         compiled = time.perf_counter() - started - read
-        bundle, report = build_bundle(dataset, threshold=threshold, task=task, progress=report_progress)
+        bundle, report = build_bundle(dataset, options, task=task, progress=report_progress)
         digest = write_bundle(out, bundle)
     seconds = report["seconds"] | {"read": read, "compile": compiled, "total": time.perf_counter() - started}
     emit(report | {"seconds": seconds, "digest": digest}, json, str(out))
 
 
-def _check_options(graph: str, out: Path) -> None:
+def _check_place(out: Path) -> None:
     """Refuse at once what would otherwise be refused after minutes of work."""
-    if graph not in GRAPHS:
-        raise InputError(f"{graph!r} is not a graph that can be built, there is {', '.join(GRAPHS)}", "--graph")
     if not out.parent.is_dir():
         raise InputError(f"no folder {out.parent}, expected one that exists", "--out")
     if out.is_dir():

@@ -39,9 +39,10 @@ def build_or_reuse(dataset: Dataset, cache: Path, progress: Report) -> tuple[Pat
 def _build(dataset: Dataset, path: Path, progress: Report) -> Bundle:
     from footwork.motion.bundle import write_bundle
     from footwork.training.build import build_bundle
+    from footwork.training.graph_options import GraphOptions
 
     path.parent.mkdir(parents=True, exist_ok=True)
-    bundle, _ = build_bundle(dataset, threshold=THRESHOLD, progress=progress)
+    bundle, _ = build_bundle(dataset, GraphOptions(threshold=THRESHOLD), progress=progress)
     write_bundle(path, bundle)
     return bundle
 

@@ -1,0 +1,34 @@
+"""What may be asked of a build."""
+
+import math
+
+import pytest
+
+from footwork.errors import InputError
+from footwork.training.graph_options import GraphOptions
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("threshold", 0.0),
+        ("threshold", -1.0),
+        ("threshold", math.inf),
+        ("threshold", math.nan),
+        ("mu", 0.99),
+        ("mu", math.nan),
+        ("mu", math.inf),
+        ("weights", 0),
+        ("weights", 100),
+        ("graph", "best"),
+        ("pairing", "all"),
+        ("order", "sideways"),
+    ],
+)
+def test_what_is_out_of_range_is_refused_by_name(option, value):
+    with pytest.raises(InputError, match=f"--{option}: "):
+        GraphOptions(**{option: value})
+
+
+def test_a_standard_graph_records_nothing_of_the_well_connected_one():
+    assert GraphOptions(mu=3.0).record() == {"graph": "standard", "threshold": 1.0}

@@ -1,0 +1,59 @@
+"""What kind of motion graph is to be built, and how."""
+
+import math
+from dataclasses import asdict, dataclass
+
+from footwork.errors import InputError
+
+GRAPHS = ("standard",)
+PAIRINGS = ("plain", "ratio", "neighbours")
+ORDERS = ("frames", "reverse", "random")
+MAX_WEIGHTS = 99
+# what only the well-connected graph has
+_WELL_CONNECTED = ("mu", "weights", "pairing", "order")
+
+
+@dataclass(frozen=True)
+class GraphOptions:
+    """How a motion graph is built.
+
+    Args:
+        graph: The kind of motion graph: standard or well-connected.
+        threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm).
+        mu: Paths of a well-connected graph may cost this many times the best one's; more makes it smaller.
+        weights: How many motions lie between the two of each pair in a well-connected graph.
+        pairing: Which stretches of motion are interpolated: plain (all with the same feet on the ground), ratio (of
+            durations at most 2) or neighbours (of like stretches before and after, too).
+        order: The order in which a well-connected graph takes the frames that paths begin at: frames, reverse, random.
+
+    Raises:
+        InputError: for an unknown name or a number out of range.
+    """
+
+    graph: str = "standard"
+    threshold: float = 1.0
+    mu: float = 5.0
+    weights: int = 9
+    pairing: str = "ratio"
+    order: str = "frames"
+
+    def __post_init__(self) -> None:
+        _require_name(self.graph, GRAPHS, "graph")
+        _require_name(self.pairing, PAIRINGS, "pairing")
+        _require_name(self.order, ORDERS, "order")
+        if not (math.isfinite(self.threshold) and self.threshold > 0.0):
+            raise InputError(f"{self.threshold} is no threshold, expected a positive number", "--threshold")
+        if not (math.isfinite(self.mu) and self.mu >= 1.0):
+            raise InputError(f"{self.mu}, expected a number from 1 up", "--mu")
+        if not 1 <= self.weights <= MAX_WEIGHTS:
+            raise InputError(f"{self.weights}, expected 1 to {MAX_WEIGHTS}", "--weights")
+
+    def record(self) -> dict[str, str | float | int]:
+        """Those that matter for this kind of graph, by name."""
+        unused = () if self.graph == "well-connected" else _WELL_CONNECTED
+        return {name: value for name, value in asdict(self).items() if name not in unused}
+
+
+def _require_name(name: str, known: tuple[str, ...], option: str) -> None:
+    if name not in known:
+        raise InputError(f"{name!r} is none, there is {', '.join(known)}", f"--{option}")

@@ -1,0 +1,66 @@
+"""The recipe of the standard motion graph: all pairs of frames, local minima, the strongly connected part."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from footwork.errors import InputError
+from footwork.motion.clip import Clip
+from footwork.motion.metric import PointCloudMetric
+from footwork.motion.task import SteeringTask
+from footwork.training.connectivity import connecting_threshold, largest_component, restricted
+from footwork.training.graph_options import GraphOptions
+from footwork.training.memory import machine_bytes
+from footwork.training.nodes import nodes_of
+from footwork.training.recipe import Built
+from footwork.training.stages import Stages
+from footwork.training.standard_graph import standard_graph
+from footwork.training.transitions import Minima, local_minima
+
+# a float64 cost for each pair of frames, and as much again for the rest of the build and the machine
+_BYTES_PER_PAIR = 16
+
+
+def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages) -> Built:
+    """The standard motion graph, in the stages "metric" and "graph".
+
+    Raises:
+        InputError: for more frames than memory has room for, or where nothing can be walked without end.
+    """
+    _check_room(sum(clip.frame_count for clip in clips))
+    with stages("metric"):
+        metric = PointCloudMetric.of_clips(clips)
+        costs = metric.all_pairs()
+    with stages("graph"):
+        nodes = nodes_of(clips, task.behaviours)
+        minima = local_minima(costs, nodes.lengths, options.threshold)
+        whole = standard_graph(nodes, metric, minima, task.smoothness_sigma)
+        part = largest_component(whole.node_count, whole.source, whole.target)
+        if not part.size:
+            raise _unconnected(options.threshold, minima, local_minima(costs, nodes.lengths), nodes.ends)
+        graph = restricted(whole, part)
+    return Built(graph, whole.node_count, whole.node_count, whole.edge_count)
+
+
+def _check_room(frames: int) -> None:
+    """Raise InputError where the costs of all pairs of frames would not fit into memory."""
+    room = math.isqrt(machine_bytes() // _BYTES_PER_PAIR)
+    if frames > room:
+        raise InputError(f"{frames} frames at 30 Hz, expected {room} at most on this machine: use fewer", "motions")
+
+
+def _unconnected(threshold: float, minima: Minima, possible: Minima, ends: Any) -> InputError:
+    """Why nothing can be walked without end at this threshold, and which threshold would do."""
+    found = f"{len(minima.i)} transitions" if len(minima.i) else "no transitions"
+    problem = f"{found} at threshold {threshold:g}, so nothing can be walked without end"
+    for share, words in ((0.5, "would connect half of the frames"), (1e-9, "would connect some frames")):
+        needed = connecting_threshold(ends, possible, share)
+        if needed is not None:
+            return InputError(f"{problem}; a threshold of {_rounded_up(needed):g} {words}", "threshold")
+    return InputError(f"{problem}, nor at any other threshold: the clips need more frames that are alike", "threshold")
+
+
+def _rounded_up(value: float) -> float:
+    """To three digits, never less than it was."""
+    unit = 10.0 ** (math.floor(math.log10(max(value, 1e-12))) - 2)
+    return math.ceil(value / unit) * unit
