@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from footwork.motion import all_pairs
+from footwork.motion import blocks
 from footwork.motion.metric import PointCloudMetric
 from footwork.motion.threads import thread_count
 from motion_samples import sample_clips
@@ -15,5 +15,5 @@ def test_at_least_one_thread_and_no_more_than_eight():
 def test_costs_do_not_depend_on_the_threads(monkeypatch, threads):
     metric = PointCloudMetric.of_clips(sample_clips(3, 90))
     expected = metric.all_pairs()
-    monkeypatch.setattr(all_pairs, "THREADS", threads)
+    monkeypatch.setattr(blocks, "THREADS", threads)
     np.testing.assert_array_equal(metric.all_pairs(), expected)

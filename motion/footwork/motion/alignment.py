@@ -22,12 +22,12 @@ def align(first: ArrayLike, second: ArrayLike, weights: ArrayLike) -> Alignment:
     """The best alignment of ``second`` onto ``first``, for many pairs of clouds at once.
 
     Clouds are centred before they are multiplied, so that places far from the origin cost no accuracy. Where the
-    yaw makes no difference (every point on one upright line) it is 0. Source: conventions.md 1, fixed weights.
+    yaw makes no difference (every point on one upright line) it is 0. Source: conventions.md 1.
 
     Args:
         first: points of the first clouds, metres.  # (..., P, 3)
         second: points of the second clouds.  # (..., P, 3)
-        weights: of the points, not negative, sum above zero.  # (P,)
+        weights: of the points, not negative, sums above zero: fixed (P,), or those of each pair.  # (..., P)
     """
     w = np.asarray(weights, dtype=np.float64)
     (px, py, pz), p_mean = _centred(first, w)
@@ -35,7 +35,7 @@ def align(first: ArrayLike, second: ArrayLike, weights: ArrayLike) -> Alignment:
     wx, wy, wz = px * w, py * w, pz * w
     sine, cosine = _dot(wx, qz) - _dot(wz, qx), _dot(wx, qx) + _dot(wz, qz)
     theta = np.arctan2(sine, cosine)
-    own = _dot(wx, px) + _dot(wy, py) + _dot(wz, pz) + (qx * qx + qy * qy + qz * qz) @ w
+    own = _dot(wx, px) + _dot(wy, py) + _dot(wz, pz) + _dot(qx * qx + qy * qy + qz * qz, w)
     square = own - 2.0 * _dot(wy, qy) - 2.0 * np.hypot(sine, cosine)
     turned_x, turned_z = turn(*q_mean, theta)
     return Alignment(theta, p_mean[0] - turned_x, p_mean[1] - turned_z, np.maximum(square, 0.0))
@@ -44,8 +44,8 @@ def align(first: ArrayLike, second: ArrayLike, weights: ArrayLike) -> Alignment:
 def _centred(points: ArrayLike, weights: NDArray) -> tuple[NDArray, tuple[NDArray, NDArray]]:
     """x, y, z (3, ..., P) with x and z about their weighted means, and those means (...)."""
     x, y, z = np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)
-    total = weights.sum()
-    mean_x, mean_z = x @ weights / total, z @ weights / total
+    total = weights.sum(axis=-1)
+    mean_x, mean_z = _dot(x, weights) / total, _dot(z, weights) / total
     return np.stack([x - mean_x[..., None], y, z - mean_z[..., None]]), (mean_x, mean_z)
 
 

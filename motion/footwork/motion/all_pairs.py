@@ -1,20 +1,16 @@
-"""The windowed cost of all pairs of frames at once: matrix products, then sums along diagonals (conventions.md 1)."""
+"""The windowed cost of all pairs of frames under fixed weights: matrix products, then sums along diagonals
+(conventions.md 1).
+"""
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.motion.threads import THREADS
+from footwork.motion.blocks import BLOCK, filled_in_blocks
 from footwork.motion.window import RADIUS
 from footwork.motion.window_costs import window_costs
-
-# Frames a block is long and wide: its products stay in the cache, and are small enough that the linear algebra
-# library computes each on the thread that asks for it, so that our threads never wait for the library's.
-_BLOCK = 64
 
 
 def all_pairs(
@@ -38,29 +34,21 @@ def all_pairs(
         scale: what squared distances are multiplied by.
     """
     mean, energy = _moments(places, windows, weights, point_weights)
-    stretches = [
-        _stretch(slice(begin, end), places[_padded(windows[begin:end])], point_weights, mean, energy)
-        for begin, end in _cuts(lengths)
-    ]
-    costs = np.empty((len(places), len(places)))
 
-    def fill_rows(number: int) -> None:
-        a, scratch = stretches[number], np.empty((3, _BLOCK))
-        for b in stretches[number:]:
-            block, mirrored = costs[a.frames, b.frames], costs[b.frames, a.frames]
-            means = (a.mean, b.mean, a.energy, b.energy)
-            window_costs(_products(a, b), weights[RADIUS:], *means, scale, scratch, block, mirrored)
+    def stretch(frames: slice, padded: NDArray[np.intp]) -> _Stretch:
+        return _stretch(places[padded], point_weights, mean[frames], energy[frames])
 
-    with ThreadPoolExecutor(THREADS) as pool:
-        list(pool.map(fill_rows, range(len(stretches))))
-    return costs
+    def fill(a: _Stretch, b: _Stretch, block: NDArray, mirrored: NDArray) -> None:
+        means = (a.mean, b.mean, a.energy, b.energy)
+        window_costs(_products(a, b), weights[RADIUS:], *means, scale, np.empty((3, BLOCK)), block, mirrored)
+
+    return filled_in_blocks(lengths, windows, stretch, fill)
 
 
 @dataclass(frozen=True, eq=False)
 class _Stretch:
-    """At most _BLOCK frames of one clip; the factors of products are over M = these and the context around them."""
+    """At most BLOCK frames of one clip; the factors of products are over M = these and the context around them."""
 
-    frames: slice
     weighted: NDArray[np.float64]  # (M, 2P) x and z times their weights
     weighted_y: NDArray[np.float64]  # (M, P)
     ground: NDArray[np.float64]  # (2P, M) x and z
@@ -70,33 +58,16 @@ class _Stretch:
     energy: NDArray[np.float64]  # (frames,)
 
 
-def _cuts(lengths: Sequence[int]) -> list[tuple[int, int]]:
-    """Begin and end of stretches: each clip cut evenly into as few as there can be."""
-    cuts: list[tuple[int, int]] = []
-    start = 0
-    for length in lengths:
-        edges = np.linspace(start, start + length, -(-length // _BLOCK) + 1).round().astype(int).tolist()
-        cuts += pairwise(edges)
-        start += length
-    return cuts
-
-
-def _padded(windows: NDArray) -> NDArray[np.intp]:
-    """The frames of a stretch with the context before and after it, from the windows of its frames."""
-    return np.concatenate([windows[0, :RADIUS], windows[:, RADIUS], windows[-1, RADIUS + 1 :]])
-
-
-def _stretch(frames: slice, points: NDArray, weights: NDArray, mean: NDArray, energy: NDArray) -> _Stretch:
+def _stretch(points: NDArray, weights: NDArray, mean: NDArray, energy: NDArray) -> _Stretch:
     x, y, z = np.moveaxis(points, -1, 0)
     return _Stretch(
-        frames=frames,
         weighted=np.concatenate([x * weights, z * weights], axis=1),
         weighted_y=y * weights,
         ground=np.concatenate([x.T, z.T]),
         crossed=np.concatenate([z.T, -x.T]),
         y=np.ascontiguousarray(y.T),
-        mean=mean[frames],
-        energy=energy[frames],
+        mean=mean,
+        energy=energy,
     )
 
 

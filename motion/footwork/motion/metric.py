@@ -9,13 +9,13 @@ from numpy.typing import ArrayLike, NDArray
 from footwork.errors import InputError
 from footwork.motion.alignment import Alignment, align
 from footwork.motion.all_pairs import all_pairs
-from footwork.motion.arrays import frozen, require_finite, require_shape
+from footwork.motion.arrays import frozen, require_shape
 from footwork.motion.clip import Clip
 from footwork.motion.kinematics import clip_places
-from footwork.motion.window import LENGTH, window_frames, window_weights
+from footwork.motion.window import LENGTH, window_weights
+from footwork.motion.windowed_points import WindowedPoints, joined, pairs_in_portions
 
 UNIT = 0.05644  # metres: s = 1 is a root mean square distance of this much (conventions.md 2)
-_PAIRS_AT_ONCE = 512
 
 
 class Metric(Protocol):
@@ -49,19 +49,9 @@ class PointCloudMetric:
     """
 
     def __init__(self, places: Sequence[NDArray], joint_weights: ArrayLike | None = None) -> None:
-        if not places:
-            raise InputError("no clips, expected at least one", "metric")
-        points = places[0].shape[1]
-        for number, clip in enumerate(places):
-            require_shape(clip, (None, points, 3), f"places of clip {number}", "metric")
-            require_finite(clip, f"places of clip {number}", "metric")
-            if not len(clip):
-                raise InputError(f"clip {number} is empty, expected at least one frame", "metric")
-        self.joint_weights = _scaled(np.ones(points) if joint_weights is None else joint_weights, points)
-        self.lengths = tuple(len(clip) for clip in places)
-        self._places = frozen(np.concatenate(places), np.float64)
-        self._windows = window_frames(self.lengths)
-        self._weights = window_weights()
+        self.points = WindowedPoints(places)
+        count = self.points.point_count
+        self.joint_weights = _scaled(np.ones(count) if joint_weights is None else joint_weights, count)
 
     @classmethod
     def of_clips(cls, clips: Iterable[Clip]) -> "PointCloudMetric":
@@ -71,7 +61,7 @@ class PointCloudMetric:
     @property
     def frame_count(self) -> int:
         """The number of frames N."""
-        return len(self._places)
+        return self.points.frame_count
 
     def all_pairs(self) -> NDArray[np.float64]:
         """s of every pair of frames, exact and symmetric.  # (N, N)
@@ -79,8 +69,10 @@ class PointCloudMetric:
         Windowed sums are sums along the diagonals of per-frame products, which are three matrix products; only
         one half of the matrix is computed, in stripes that stay in the cache.
         """
-        centred = self._places - self._centroids()
-        return all_pairs(centred, self.lengths, self._windows, self._weights, self.joint_weights, UNIT**-2)
+        points = self.points
+        return all_pairs(
+            points.centred(), points.lengths, points.windows, window_weights(), self.joint_weights, UNIT**-2
+        )
 
     def pair_costs(self, i: ArrayLike, j: ArrayLike) -> NDArray[np.float64]:
         """s of chosen pairs of frames.  # (M,)"""
@@ -88,22 +80,8 @@ class PointCloudMetric:
 
     def align(self, i: ArrayLike, j: ArrayLike) -> Alignment:
         """How the windows of frames ``j`` go onto those of frames ``i``, each (M,)."""
-        first, second = np.broadcast_arrays(*(np.atleast_1d(np.asarray(frames, dtype=np.intp)) for frames in (i, j)))
-        spans = [slice(at, at + _PAIRS_AT_ONCE) for at in range(0, max(len(first), 1), _PAIRS_AT_ONCE)]
-        parts = [
-            align_windows(self._window(first[span]), self._window(second[span]), self.joint_weights) for span in spans
-        ]
-        return Alignment(*(np.concatenate(column) for column in zip(*parts, strict=True)))
-
-    def _window(self, frames: NDArray) -> NDArray[np.float64]:
-        return self._places[self._windows[frames]]
-
-    def _centroids(self) -> NDArray[np.float64]:
-        """Each clip's own centre on the ground and one height for all, which no cost depends on.  # (N, 1, 3)"""
-        starts = np.concatenate([[0], np.cumsum(self.lengths)[:-1]])
-        means = np.add.reduceat(self._places.mean(axis=1), starts) / np.array(self.lengths)[:, None]
-        means[:, 1] = self._places[..., 1].mean()
-        return np.repeat(means, self.lengths, axis=0)[:, None, :]
+        window, weights = self.points.window, self.joint_weights
+        return joined([align_windows(window(a), window(b), weights) for a, b in pairs_in_portions(i, j)])
 
 
 def align_windows(first: ArrayLike, second: ArrayLike, joint_weights: ArrayLike | None = None) -> Alignment:

@@ -1,9 +1,11 @@
-"""The innermost loop of the metric: windowed sums along the diagonals of per-frame products (conventions.md 1)."""
+"""The innermost loop of the metric under fixed weights (conventions.md 1)."""
 
 import math
 
 import numba
 from numpy.typing import NDArray
+
+from footwork.motion.diagonal_sums import add_diagonals
 
 
 @numba.njit(cache=True, nogil=True)
@@ -35,17 +37,8 @@ def window_costs(
         mirrored: the result, mirrored.  # (B, A)
     """
     rows, columns = costs.shape
-    radius = weights.shape[0] - 1
     for i in range(rows):
-        for part in range(3):
-            total, middle = sums[part], gram[part, i + radius, radius:]
-            for j in range(columns):
-                total[j] = weights[0] * middle[j]
-            for k in range(1, radius + 1):
-                weight = weights[k]
-                early, late = gram[part, i + radius - k, radius - k :], gram[part, i + radius + k, radius + k :]
-                for j in range(columns):
-                    total[j] += weight * (early[j] + late[j])
+        add_diagonals(gram, weights, i, sums)
         line, x, z, own = costs[i], i_mean[i, 0], i_mean[i, 1], i_energy[i]
         for j in range(columns):
             real = sums[0, j] - x * j_mean[j, 0] - z * j_mean[j, 1]
