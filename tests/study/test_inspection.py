@@ -34,10 +34,13 @@ def test_a_bundle_is_described_in_json():
 def test_ways_on_a_ring_are_known():
     graph = ring_graph(12)
     bundle = type(toy_bundle())(graph, {})
-    connectivity = inspect_bundle(bundle)["connectivity"]
-    assert connectivity["longest_way_s"] == pytest.approx(11 / 30)
-    assert connectivity["mean_way_s"] == pytest.approx(5.5 / 30)
-    assert connectivity["edges_per_node"] == 1.0
+    report = inspect_bundle(bundle)
+    connectivity, times = report["connectivity"], report["transition_time"]
+    assert times["longest_s"] == pytest.approx(11 / 30)
+    assert times["mean_s"] == pytest.approx(6 / 30)
+    assert times["exact"]
+    assert connectivity["edges_per_node"] == connectivity["reachable_share"] == 1.0
+    assert connectivity["scc_fraction"] is None
 
 
 def test_turning_takes_as_long_as_the_only_way_round():

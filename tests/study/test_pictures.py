@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,15 +12,29 @@ from toy_bundle import toy_bundle
 plt = pytest.importorskip("matplotlib.pyplot", reason="matplotlib is not installed")
 
 
-def test_a_bundle_gets_a_sheet_a_clip_its_transitions_and_its_values(tmp_path):
+def test_a_bundle_gets_a_sheet_a_clip_its_measures_and_its_values(tmp_path):
     paths = inspection_plots(toy_bundle(), tmp_path / "plots")
     assert [path.name for path in paths] == [
         "wander0.png",
         "wander1.png",
         "wander2.png",
         "transitions.png",
+        "ways.png",
+        "transition_times.png",
+        "label_times.png",
+        "maneuverability.png",
         "values_steering.png",
     ]
+    assert all(plt.imread(path)[..., :3].std() > 0.01 for path in paths)
+
+
+def test_a_graph_of_two_labels_is_shown_on_a_tour_frames_between_two_or_not(tmp_path):
+    bundle = toy_bundle()
+    graph = bundle.graph
+    label = graph.behaviour > 1
+    mixed = replace(graph, label=label, labels=("walk", "jump"), weight=np.where(graph.frame % 5 == 3, 0.5, 1.0))
+    paths = inspection_plots(replace(bundle, graph=mixed), tmp_path)
+    assert [path.name for path in paths][-2:] == ["tour.png", "values_steering.png"]
     assert all(plt.imread(path)[..., :3].std() > 0.01 for path in paths)
 
 

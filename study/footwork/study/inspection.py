@@ -5,25 +5,25 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from footwork.controllers.steering import SteeringController
 from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
-from footwork.motion.graph import ARRAYS, MotionGraph
+from footwork.motion.graph import ARRAYS
 from footwork.motion.table import PolicyTable
-from footwork.motion.tick import TICK
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
-from footwork.study.responsiveness import SAMPLES, evenly, responsiveness
+from footwork.study.graph_report import graph_report
+from footwork.study.responsiveness import responsiveness
 
 
 def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
-    """Sizes, frames by label and behaviour, connectivity, responsiveness, tables, and where it all came from.
+    """Sizes, frames by label and behaviour, measures of the graph, responsiveness, tables, and where it all came from.
 
-    ``connectivity`` has the share of the source frames that the graph keeps, the mean number of edges from a node,
-    the share of ordered pairs of nodes (from sampled sources) with a way between them, and the seconds that the
-    shortest such ways take. ``responsiveness`` is that of the "steering" table, None without one.
+    ``connectivity`` has the shares of the captured frames that the graph keeps, of their ordered pairs that have a way
+    in it, and of those pairs whose frames it keeps, and the mean number of edges from a node. Seconds between captured
+    frames are ``transition_time``; those to and between kinds of motion are given for labels and for behaviours
+    (``graph_report``). ``tour`` is a best path through all labels. ``responsiveness`` is that of the "steering" table,
+    None without one.
     """
     graph = bundle.graph
     sizes = {"graph": sum(getattr(graph, name).nbytes for name in ARRAYS)}
@@ -31,15 +31,16 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
     steering = bundle.tables.get("steering")
     return {
         "digest": bundle.digest,
-        "clips": len(np.unique(graph.clip)),
+        "clips": len(np.unique(graph.clip[graph.original])),
         "nodes": graph.node_count,
+        "captured_frames": int(graph.original.sum()),
         "edges": graph.edge_count,
         "transitions": int((~graph.natural).sum()),
         "bytes": sizes | {"total": sum(sizes.values())},
         "joints": graph.skeleton.joint_count,
         "labels": _counts(graph.labels, graph.label),
         "behaviours": _counts(graph.behaviours, graph.behaviour),
-        "connectivity": _connectivity(bundle),
+        **graph_report(graph, bundle.provenance.get("counts", {}).get("frames")),
         "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
         "responsiveness": responsiveness(graph, SteeringController(graph, steering)) if steering else None,
         "tables": {name: _table(table) for name, table in bundle.tables.items()},
@@ -82,27 +83,6 @@ def _counts(names: Sequence[str], index: NDArray) -> dict[str, int]:
 def _words(labels: NDArray) -> dict[str, int]:
     words, counts = np.unique(labels, return_counts=True)
     return {str(word) or "none": int(count) for word, count in zip(words, counts, strict=True)}
-
-
-def _connectivity(bundle: Bundle) -> dict[str, float | None]:
-    graph, counts = bundle.graph, bundle.provenance.get("counts", {})
-    frames = counts.get("frames")
-    ticks = _shortest_ways(graph)
-    reached = np.isfinite(ticks)
-    return {
-        "scc_fraction": counts.get("scc_nodes", graph.node_count) / frames if frames else None,
-        "edges_per_node": graph.edge_count / graph.node_count,
-        "reachable_share": float(reached.mean()),
-        "mean_way_s": float(ticks[reached].mean() * TICK),
-        "longest_way_s": float(ticks[reached].max() * TICK),
-    }
-
-
-def _shortest_ways(graph: MotionGraph) -> NDArray[np.float64]:
-    """Ticks of the shortest ways from sampled nodes to all nodes, infinite where there is none.  # (samples, N)"""
-    shape = (graph.node_count, graph.node_count)
-    ways = csr_array((np.ones(graph.edge_count), graph.target, graph.edge_start), shape=shape)
-    return dijkstra(ways, indices=evenly(np.arange(graph.node_count), SAMPLES), unweighted=True)
 
 
 def _table(table: PolicyTable) -> dict[str, Any]:

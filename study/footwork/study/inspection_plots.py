@@ -1,7 +1,6 @@
 """Pictures of what is in a bundle: contact sheets, transitions between frames, values over headings, turning."""
 
 import os
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +10,11 @@ from footwork.motion.bundle import Bundle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.table import PolicyTable
 from footwork.study import drawing
-from footwork.study.contact_sheet import contact_sheets
+from footwork.study.contact_sheet import contact_sheet, contact_sheets
 from footwork.study.graph_clips import clips_of_graph
+from footwork.study.graph_paths import path_clip
+from footwork.study.measure_plots import label_times_plot, maneuverability_plot, transition_time_plot, ways_plot
+from footwork.study.tour import tour, tour_labels
 
 _BEHAVIOUR_COLOURS = {"stop": "#9aa5b1", "walk": "#4c9f70", "run": "#d1495b", "jump": "#8e6bbf"}
 
@@ -23,11 +25,25 @@ def inspection_plots(bundle: Bundle, directory: str | os.PathLike) -> list[Path]
     Raises:
         InputError: for a folder that cannot be made or written to, or a missing matplotlib.
     """
-    directory = Path(directory)
-    paths = contact_sheets(directory, clips_of_graph(bundle.graph))
-    paths.append(transitions_plot(bundle.graph, directory / "transitions.png"))
+    directory, graph = Path(directory), bundle.graph
+    paths = contact_sheets(directory, clips_of_graph(graph))
+    frames = bundle.provenance.get("counts", {}).get("frames")
+    paths += [
+        transitions_plot(graph, directory / "transitions.png"),
+        ways_plot(graph, directory / "ways.png", frames),
+        transition_time_plot(graph, directory / "transition_times.png"),
+        label_times_plot(graph, directory / "label_times.png"),
+        maneuverability_plot(graph, directory / "maneuverability.png"),
+    ]
+    edges = tour(graph)
+    if edges is not None:
+        paths.append(contact_sheet(directory / "tour.png", path_clip(graph, edges, f"tour: {_tour_words(graph)}")))
     paths += [values_plot(table, directory / f"values_{name}.png") for name, table in bundle.tables.items()]
     return paths
+
+
+def _tour_words(graph: MotionGraph) -> str:
+    return ", ".join(tour_labels(graph)) + ", without smoothing"
 
 
 def transitions_plot(graph: MotionGraph, path: str | os.PathLike) -> Path:
@@ -37,10 +53,10 @@ def transitions_plot(graph: MotionGraph, path: str | os.PathLike) -> Path:
     jumps = ~graph.natural
     points = axes.scatter(graph.target[jumps], graph.source[jumps], c=graph.cost[jumps], s=3, cmap="viridis_r", lw=0)
     axes.set(xlim=(0, graph.node_count), ylim=(graph.node_count, -0.025 * graph.node_count))
-    axes.set(
-        xlabel="to node", ylabel="from node", title=f"{int(jumps.sum())} transitions of {graph.node_count} nodes\n"
-    )
-    for start in np.flatnonzero(np.diff(graph.clip)) + 0.5:
+    between = "" if graph.original.all() else ", captured frames first, then frames between two"
+    axes.set(xlabel="to node", ylabel="from node")
+    axes.set_title(f"{int(jumps.sum())} transitions of {graph.node_count} nodes{between}", pad=26)
+    for start in _bounds(graph):
         axes.axvline(start, color=drawing.FAINT, lw=0.3)
         axes.axhline(start, color=drawing.FAINT, lw=0.3)
     _label_strip(axes, graph)
@@ -69,13 +85,21 @@ def values_plot(table: PolicyTable, path: str | os.PathLike) -> Path:
     return drawing.save(figure, path)
 
 
+def _bounds(graph: MotionGraph) -> np.ndarray:
+    """Where one clip's captured frames end and another's, or frames between two, begin."""
+    clip = np.where(graph.original, graph.clip, -1)
+    return np.flatnonzero(np.diff(clip)) + 0.5
+
+
 def _label_strip(axes: Any, graph: MotionGraph) -> None:
     """A strip above the picture that shows the labels of the nodes."""
+    from matplotlib.colors import to_rgb
+
     colours = drawing.label_colours(list(graph.labels))
-    bounds = [0, *(np.flatnonzero(np.diff(graph.label)) + 1), graph.node_count]
-    for start, end in pairwise(bounds):
-        colour = colours[graph.labels[graph.label[start]]]
-        axes.fill_between([start, end], -0.022 * graph.node_count, -0.004 * graph.node_count, color=colour, lw=0)
+    strip = np.array([to_rgb(colours[label]) for label in graph.labels])[graph.label][None]
+    height = graph.node_count
+    axes.imshow(strip, extent=(0, height, -0.004 * height, -0.022 * height), aspect="auto", interpolation="nearest")
+    axes.set(xlim=(0, height), ylim=(height, -0.025 * height))
     for label in sorted({graph.labels[number] for number in graph.label}):
         axes.plot([], [], color=colours[label], lw=5, label=label or "none")
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.04), ncols=8, frameon=False, fontsize=8)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=8, frameon=False, fontsize=8)

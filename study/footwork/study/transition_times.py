@@ -83,7 +83,7 @@ class TransitionTimes:
         """The figures, JSON-able."""
         return {
             "mean_s": self.mean,
-            "interval_95_s": list(self.interval) if self.interval else None,
+            "interval_95_s": list(self.interval) if self.interval and not self.exact else None,
             "median_s": self.percentile(0.5),
             "p95_s": self.percentile(0.95),
             "longest_s": self.percentile(1.0),
@@ -111,8 +111,10 @@ def transition_times(
         InputError: for no frames, or fewer than one source.
     """
     frames = np.asarray(frames, dtype=np.int32)
-    if not len(frames) or (sources is not None and sources < 1):
-        raise InputError(f"{sources} sources of {len(frames)} frames, expected at least 1", "transition times")
+    if not len(frames):
+        raise InputError("no captured frames among the nodes, expected at least 1", "transition times")
+    if sources is not None and sources < 1:
+        raise InputError(f"{sources} sources, expected at least 1", "transition times")
     chosen = frames
     if sources is not None and sources < len(frames):
         chosen = np.sort(np.random.default_rng(seed).choice(frames, sources, replace=False))
