@@ -19,7 +19,7 @@ UNIT = 0.05644  # metres: s = 1 is a root mean square distance of this much (con
 
 
 class Metric(Protocol):
-    """What transitions need of a metric over N frames: every pair at once, and the alignment of chosen pairs."""
+    """What transitions need of a metric over N frames: every pair at once, chosen pairs, and their alignment."""
 
     @property
     def frame_count(self) -> int:
@@ -28,6 +28,10 @@ class Metric(Protocol):
 
     def all_pairs(self) -> NDArray[np.float64]:
         """s of every pair of frames.  # (N, N)"""
+        ...
+
+    def pair_costs(self, i: ArrayLike, j: ArrayLike) -> NDArray[np.float64]:
+        """s of chosen pairs of frames.  # (M,)"""
         ...
 
     def align(self, i: ArrayLike, j: ArrayLike) -> Alignment:

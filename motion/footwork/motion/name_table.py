@@ -4,7 +4,6 @@ docs/bring-your-own-skeleton.md tells how to write one; those that come along li
 """
 
 import math
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -18,8 +17,8 @@ from scipy.spatial.transform import Rotation
 from footwork.errors import InputError
 from footwork.motion.body import NAMES
 from footwork.motion.skeleton import Skeleton
+from footwork.motion.toml_file import only_keys, read_toml, shown, text_of
 
-MAX_BYTES = 1 << 20
 END = ":end"
 _AXES = ("left", "up", "forward")  # +x, +y and +z of the common body at rest
 _KEYS = ("name", "attribution", "recognise", "up", "forward", "joints")
@@ -86,12 +85,12 @@ def read_name_table(path: str | Path) -> NameTable:
     Raises:
         InputError: for a file that cannot be read or is not TOML, and for a missing, unknown or malformed key.
     """
-    values = _read_toml(Path(path))
+    values = read_toml(Path(path), "a name table")
     where = str(path)
-    _only(values, _KEYS, where)
+    only_keys(values, _KEYS, where)
     return NameTable(
-        name=_text(values, "name", where),
-        attribution=_text(values, "attribution", where) if "attribution" in values else "",
+        name=text_of(values, "name", where),
+        attribution=text_of(values, "attribution", where) if "attribution" in values else "",
         recognise=_names(values, "recognise", where),
         world=_world(values, where),
         joints=_joints(values, where),
@@ -141,38 +140,10 @@ def frame_of(axes: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
     return Rotation.from_matrix(np.stack([columns[axis] for axis in _AXES], axis=-1)).as_quat()
 
 
-def _read_toml(path: Path) -> dict[str, Any]:
-    try:
-        with path.open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise InputError(f"cannot be read ({reason}), expected a name table in TOML", path) from None
-    if len(data) > MAX_BYTES:
-        raise InputError(f"is longer than {MAX_BYTES} bytes, expected a name table in TOML", path)
-    try:
-        return tomllib.loads(data.decode("utf-8"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"is not TOML ({error})", path) from None
-
-
-def _only(values: dict[str, Any], allowed: tuple[str, ...], where: str) -> None:
-    unknown = [key for key in values if key not in allowed]
-    if unknown:
-        raise InputError(f"unknown key {unknown[0]!r}, expected {', '.join(allowed)}", where)
-
-
-def _text(values: dict[str, Any], key: str, where: str) -> str:
-    value = values.get(key)
-    if not isinstance(value, str):
-        raise InputError(f"{key} is {_shown(value)}, expected a text", where)
-    return value
-
-
 def _names(values: dict[str, Any], key: str, where: str) -> tuple[str, ...]:
     value = values.get(key)
     if not isinstance(value, list) or not value or not all(isinstance(name, str) for name in value):
-        raise InputError(f"{key} is {_shown(value)}, expected a list of joint names", where)
+        raise InputError(f"{key} is {shown(value)}, expected a list of joint names", where)
     return tuple(value)
 
 
@@ -180,13 +151,9 @@ def _vector(values: dict[str, Any], key: str, where: str) -> Vector:
     value = values[key]
     numbers = isinstance(value, list) and len(value) == 3 and all(type(part) in (int, float) for part in value)
     if not (numbers and all(abs(part) < 1e9 for part in value) and math.hypot(*value) > 1e-6):
-        raise InputError(f"{key} is {_shown(value)}, expected a direction such as [0, 1, 0]", where)
+        raise InputError(f"{key} is {shown(value)}, expected a direction such as [0, 1, 0]", where)
     x, y, z = value
     return float(x), float(y), float(z)
-
-
-def _shown(value: object) -> str:
-    return "missing" if value is None else repr(value)[:60]
 
 
 def _world(values: dict[str, Any], where: str) -> NDArray[np.float64]:
@@ -206,8 +173,8 @@ def _require_apart(axes: dict[str, NDArray[np.float64]], where: str) -> None:
 def _joints(values: dict[str, Any], where: str) -> dict[str, JointRule]:
     given = values.get("joints")
     if not isinstance(given, dict):
-        raise InputError(f"joints is {_shown(given)}, expected a table of the common body's joints", where)
-    _only(given, NAMES, f"{where}: joints")
+        raise InputError(f"joints is {shown(given)}, expected a table of the common body's joints", where)
+    only_keys(given, NAMES, f"{where}: joints")
     missing = [name for name in NAMES if name not in given]
     if missing:
         raise InputError(f"joints lacks {', '.join(missing)}", where)
@@ -222,9 +189,9 @@ def _joint(value: Any, where: str) -> JointRule:
     if isinstance(value, str):
         return JointRule(value, (value,), {})
     if not isinstance(value, dict):
-        raise InputError(f"{_shown(value)}, expected a joint name or a table with turn", where)
-    _only(value, _JOINT_KEYS, where)
-    turn = _text(value, "turn", where)
+        raise InputError(f"{shown(value)}, expected a joint name or a table with turn", where)
+    only_keys(value, _JOINT_KEYS, where)
+    turn = text_of(value, "turn", where)
     place = _names(value, "place", where) if "place" in value else (turn,)
     axes = {key: _vector(value, key, where) for key in value if key in _AXES}
     if len(axes) > 2:
