@@ -83,6 +83,12 @@ def test_on_two_loops_that_meet_the_times_are_known():
     assert again.by_kind() == {name: pytest.approx(value / 30) for name, value in ticks.items()}
 
 
+def test_from_chosen_frames_it_is_the_mean_time_from_each():
+    kind = np.repeat([0, 1], [9, 3])
+    found = maneuverability(*ring(12), kind, ("a", "b"), frames=np.array([0, 4, 10]))
+    assert found.by_kind() == {"a": pytest.approx(2 / 3 / 30), "b": pytest.approx((9 + 5 + 0) / 3 / 30)}
+
+
 def test_a_loop_is_one_segment_and_what_is_never_left_is_never_entered_anew():
     cut = segments(*ring(9))
     assert (cut.last.tolist(), cut.length.tolist()) == ([8], [9])

@@ -74,9 +74,18 @@ def segments(edge_start: NDArray, target: NDArray) -> Segments:
 
 
 def maneuverability(
-    edge_start: NDArray, target: NDArray, kind: NDArray, kinds: Sequence[str], *, reentry: bool = False
+    edge_start: NDArray,
+    target: NDArray,
+    kind: NDArray,
+    kinds: Sequence[str],
+    *,
+    reentry: bool = False,
+    frames: NDArray | None = None,
 ) -> Maneuverability:
     """Local maneuverability of a graph given in CSR form.
+
+    With ``frames`` the mean goes over those nodes, each a segment of its own, instead of over the graph's segments:
+    for comparing graphs over the same captured frames, whatever else they hold and wherever they branch.
 
     Args:
         edge_start: edges of node n are ``edge_start[n]:edge_start[n + 1]``.  # (N + 1,)
@@ -84,8 +93,9 @@ def maneuverability(
         kind: index into ``kinds`` of each node, -1 for none.  # (N,)
         kinds: the words, such as a graph's labels or behaviours.
         reentry: from within k, count the time until it is left and entered anew instead of 0.
+        frames: the nodes to start from, all segments where not given.  # (F,)
     """
-    cut = segments(edge_start, target)
+    cut = segments(edge_start, target) if frames is None else Segments(frames, np.ones(len(frames), dtype=np.int64))
     back = reversed_edges(edge_start, target)
     shown = [index for index in range(len(kinds)) if (kind == index).any()]
     seconds, answered = np.full(len(shown), np.nan), np.zeros(len(shown))
