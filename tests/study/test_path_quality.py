@@ -7,8 +7,8 @@ import pytest
 from footwork.motion.kinematics import clip_places
 from footwork.motion.metric import PointCloudMetric
 from footwork.study.foot_slide import slide_of_clip
-from footwork.study.graph_paths import best_path_through
-from footwork.study.path_quality import path_quality, pose_jumps, windowed_costs
+from footwork.study.graph_paths import best_path_through, natural_path, path_clip
+from footwork.study.path_quality import path_quality, pose_jumps, slide_by_step, windowed_costs
 from footwork.training.nodes import nodes_of
 from footwork.training.standard_graph import standard_graph
 from footwork.training.transitions import local_minima
@@ -68,6 +68,21 @@ def test_a_path_is_judged_by_its_transitions_and_its_feet(walked):
     slides = [slide_of_clip(clips[index]) for index in np.unique(graph.clip[graph.target[path]])]
     source = sum(slide.metres for slide in slides) / sum(slide.seconds for slide in slides)
     assert found["source_foot_slide_cm_s"] == pytest.approx(100 * source, rel=1e-4)
+
+
+def test_slide_is_told_apart_by_the_kind_of_step(walked):
+    graph = walked[2]
+    mixed = replace(graph, weight=np.where((graph.clip == 0) & (graph.frame < 10), 0.5, 1.0))
+    jump = int(np.flatnonzero(~graph.natural & (graph.source > 20) & (graph.clip[graph.source] == 0))[0])
+    path = np.concatenate([natural_path(graph, 0, int(graph.source[jump])), [jump]])
+    parts = slide_by_step(mixed, path)
+    steps = {"captured": graph.source[jump] - 10, "interpolated": 10, "transitions": 1}
+    assert {name: part.seconds for name, part in parts.items()} == {
+        name: pytest.approx(2 * count / 30) for name, count in steps.items()
+    }
+    whole = slide_of_clip(path_clip(graph, path))
+    assert sum(part.metres for part in parts.values()) == pytest.approx(whole.metres)
+    assert path_quality(mixed, path)["foot_slide_cm_s"] == pytest.approx(whole.cm_per_second)
 
 
 def test_a_path_without_transitions_slides_as_its_clip_does(walked):

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from footwork.motion import quaternion
 from footwork.motion.alignment import turn
 from footwork.motion.graph import MotionGraph
-from footwork.motion.kinematics import forward
+from footwork.motion.kinematics import clip_places, forward
 from footwork.motion.metric import UNIT, align_windows
 from footwork.motion.tick import TICK
 from footwork.motion.window import RADIUS
-from footwork.study.foot_slide import slide_of_capture, slide_of_clip
+from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_steps
 from footwork.study.graph_paths import path_clip, path_nodes, path_seconds
 
 _NONE = -1
@@ -24,7 +24,9 @@ def path_quality(graph: MotionGraph, edges: NDArray[np.int64]) -> dict[str, Any]
 
     ``transition_s`` are costs s of the edges that do not follow the capture, ``transition_cm`` the same as root mean
     square distance over the window, ``pose_jump_cm`` that of the two poses at the jump alone; all three are None on a
-    path without transitions. ``source_foot_slide_cm_s`` is the slide of the clips that the path takes its frames from.
+    path without transitions. ``foot_slide_cm_s`` is the slide along the whole path, ``foot_slide_parts`` what captured
+    steps, interpolated steps and transitions have in it, and ``source_foot_slide_cm_s`` that of the clips that the path
+    takes its frames from.
 
     Raises:
         InputError: as ``path_nodes``.
@@ -32,14 +34,35 @@ def path_quality(graph: MotionGraph, edges: NDArray[np.int64]) -> dict[str, Any]
     nodes = path_nodes(graph, edges)
     jumps = edges[~graph.natural[edges]]
     sources = np.union1d(graph.clip[nodes], graph.other_clip[nodes])
+    parts = slide_by_step(graph, edges)
     return {
         "seconds": path_seconds(edges),
         "transitions": len(jumps),
         "transition_s": _worst_and_mean(graph.cost[jumps]),
         "transition_cm": _worst_and_mean(100.0 * UNIT * np.sqrt(graph.cost[jumps])),
         "pose_jump_cm": _worst_and_mean(100.0 * pose_jumps(graph, jumps)),
-        "foot_slide_cm_s": slide_of_clip(path_clip(graph, edges)).cm_per_second,
+        "foot_slide_cm_s": sum(parts.values(), Slide(0.0, 0.0)).cm_per_second,
+        "foot_slide_parts": {
+            name: {"cm": 100.0 * part.metres, "contact_s": part.seconds} for name, part in parts.items()
+        },
         "source_foot_slide_cm_s": slide_of_capture(graph, sources).cm_per_second,
+    }
+
+
+def slide_by_step(graph: MotionGraph, edges: NDArray[np.int64]) -> dict[str, Slide]:
+    """The foot slide along a path by kind of step: "captured", "interpolated" and "transitions"; they add up.
+
+    Raises:
+        InputError: as ``path_nodes``.
+    """
+    clip, nodes = path_clip(graph, edges), path_nodes(graph, edges)
+    balls = clip_places(clip)[0][:, graph.skeleton.feet[:, 1]]
+    standing = clip.contacts[:-1] & clip.contacts[1:]
+    natural, captured = graph.natural[edges], graph.original[nodes[:-1]] & graph.original[nodes[1:]]
+    kinds = {"captured": natural & captured, "interpolated": natural & ~captured, "transitions": ~natural}
+    return {
+        name: slide_of_steps(balls[:-1][steps], balls[1:][steps], standing[steps], TICK)
+        for name, steps in kinds.items()
     }
 
 
