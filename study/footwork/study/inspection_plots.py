@@ -32,18 +32,24 @@ def inspection_plots(bundle: Bundle, directory: str | os.PathLike) -> list[Path]
         transitions_plot(graph, directory / "transitions.png"),
         ways_plot(graph, directory / "ways.png", frames),
         transition_time_plot(graph, directory / "transition_times.png"),
-        label_times_plot(graph, directory / "label_times.png"),
-        maneuverability_plot(graph, directory / "maneuverability.png"),
     ]
-    edges = tour(graph)
-    if edges is not None:
-        paths.append(contact_sheet(directory / "tour.png", path_clip(graph, edges, f"tour: {_tour_words(graph)}")))
+    if len(tour_labels(graph)) > 1:
+        paths += _label_plots(graph, directory)
     paths += [values_plot(table, directory / f"values_{name}.png") for name, table in bundle.tables.items()]
     return paths
 
 
-def _tour_words(graph: MotionGraph) -> str:
-    return ", ".join(tour_labels(graph)) + ", without smoothing"
+def _label_plots(graph: MotionGraph, directory: Path) -> list[Path]:
+    """Pictures of what a graph of several labels can do."""
+    paths = [
+        label_times_plot(graph, directory / "label_times.png"),
+        maneuverability_plot(graph, directory / "maneuverability.png"),
+    ]
+    edges = tour(graph)
+    if edges is None:
+        return paths
+    name = f"tour: {', '.join(tour_labels(graph))}, without smoothing"
+    return [*paths, contact_sheet(directory / "tour.png", path_clip(graph, edges, name))]
 
 
 def transitions_plot(graph: MotionGraph, path: str | os.PathLike) -> Path:
