@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from footwork.cli.motions import AS_USUAL, EMBEDDED, Reading, load_motions
-from footwork.cli.output import emit, progress
+from footwork.cli.output import Report, emit, progress
 
 
 def inspect(
@@ -31,29 +31,33 @@ def inspect(
     with progress() as report_progress:
         report_progress("reading", 0.0)
         if source.startswith(EMBEDDED) or Path(source).is_dir():
-            report = _inspect_motions(source, plots, reading)
+            report = _inspect_motions(source, plots, reading, report_progress)
         else:
-            report = _inspect_bundle(Path(source), plots)
+            report = _inspect_bundle(Path(source), plots, report_progress)
     emit(report, json, source)
 
 
-def _inspect_motions(source: str, plots: Path | None, reading: Reading) -> dict:
+def _inspect_motions(source: str, plots: Path | None, reading: Reading, tell: Report) -> dict:
     from footwork.study.contact_sheet import contact_sheets
     from footwork.study.inspection import inspect_clips
 
     dataset = load_motions(source, reading)
+    tell("drawing" if plots else "measuring", 0.5)
     pictures = contact_sheets(plots, list(dataset.clips)) if plots else []
     return inspect_clips(dataset.clips) | _about(dataset.attribution, pictures)
 
 
-def _inspect_bundle(path: Path, plots: Path | None) -> dict:
+def _inspect_bundle(path: Path, plots: Path | None, tell: Report) -> dict:
     from footwork.motion.bundle import read_bundle
     from footwork.study.inspection import inspect_bundle
     from footwork.study.inspection_plots import inspection_plots
 
     bundle = read_bundle(path)
+    tell("measuring", 0.1)
+    report = inspect_bundle(bundle)
+    tell("drawing", 0.5)
     pictures = inspection_plots(bundle, plots) if plots else []
-    return inspect_bundle(bundle) | _about(bundle.attribution, pictures)
+    return report | _about(bundle.attribution, pictures)
 
 
 def _about(attribution: Sequence[str], pictures: Sequence[Path]) -> dict:
