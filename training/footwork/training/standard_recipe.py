@@ -10,7 +10,7 @@ from footwork.motion.metric import PointCloudMetric
 from footwork.motion.task import SteeringTask
 from footwork.training.connectivity import connecting_threshold, largest_component, restricted
 from footwork.training.graph_options import GraphOptions
-from footwork.training.memory import machine_bytes
+from footwork.training.memory import available_bytes
 from footwork.training.nodes import nodes_of
 from footwork.training.recipe import Built
 from footwork.training.stages import Stages
@@ -44,9 +44,9 @@ def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringT
 
 def _check_room(frames: int) -> None:
     """Raise InputError where the costs of all pairs of frames would not fit into memory."""
-    room = math.isqrt(machine_bytes() // _BYTES_PER_PAIR)
+    room = math.isqrt(available_bytes() // _BYTES_PER_PAIR)
     if frames > room:
-        raise InputError(f"{frames} frames at 30 Hz, expected {room} at most on this machine: use fewer", "motions")
+        raise InputError(f"{frames} frames at 30 Hz, expected {room} at most with the memory left: use fewer", "motions")
 
 
 def _unconnected(threshold: float, minima: Minima, possible: Minima, ends: Any) -> InputError:
