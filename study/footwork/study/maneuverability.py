@@ -118,7 +118,7 @@ def _only_successors(edge_start: NDArray, target: NDArray) -> NDArray[np.int32]:
     following = np.full(nodes, -1, dtype=np.int32)
     single = np.flatnonzero(np.diff(edge_start) == 1)
     after = target[edge_start[single]]
-    alone = (np.bincount(target, minlength=nodes)[after] == 1) & (after != single)
+    alone = np.bincount(target, minlength=nodes)[after] == 1
     following[single[alone]] = after[alone]
     return following
 
