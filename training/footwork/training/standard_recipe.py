@@ -46,7 +46,7 @@ def _check_room(frames: int) -> None:
     """Raise InputError where the costs of all pairs of frames would not fit into memory."""
     room = math.isqrt(available_bytes() // _BYTES_PER_PAIR)
     if frames > room:
-        raise InputError(f"{frames} frames at 30 Hz, expected {room} at most with the memory left: use fewer", "motions")
+        raise InputError(f"{frames} frames at 30 Hz, expected {room} at most in the memory left: use fewer", "motions")
 
 
 def _unconnected(threshold: float, minima: Minima, possible: Minima, ends: Any) -> InputError:
