@@ -1,7 +1,8 @@
-"""Throughput of the point-cloud metric over all pairs of frames: ``python benchmarks/metric.py`` prints JSON.
+"""Throughput of the metrics over all pairs of frames: ``python benchmarks/metric.py`` prints JSON.
 
-Rates are set against this machine's matrix-product peak, measured in the same run, and against the plain form of
-the formula in numpy: five products of the full depth of a window (conventions.md 1).
+Rates of the uniform metric are set against this machine's matrix-product peak, measured in the same run, and against
+the plain form of the formula in numpy: five products of the full depth of a window (conventions.md 1). The other
+metrics are set against the uniform one, whose turns alternate with theirs.
 """
 
 import json
@@ -10,9 +11,10 @@ import sys
 import numpy as np
 
 from footwork.motion.kinematics import clip_places
-from footwork.motion.metric import UNIT, PointCloudMetric
+from footwork.motion.metric import UNIT, Metric, PointCloudMetric
+from footwork.motion.metrics import NAMES, metric_of
 from footwork.motion.window import LENGTH, RADIUS, window_frames, window_weights
-from support.machine import matrix_product_peak, seconds_of, spread
+from support.machine import matrix_product_peak, seconds_of, spread, timed
 from support.motions import benchmark_clips
 
 
@@ -33,6 +35,25 @@ def flops_per_pair(points: int) -> tuple[float, float]:
     """Of the fused form (half of the matrix, per-frame products, diagonal sums) and of the plain one."""
     fused = 0.5 * (10.0 * points + 3.0 * (3.0 * RADIUS + 1.0) + 18.0)
     return fused, 10.0 * points * LENGTH + 10.0
+
+
+def compared(metrics: dict[str, Metric], repeats: int) -> dict[str, dict[str, object]]:
+    """Seconds of each metric, and how many times the uniform metric's they are, of runs one after the other."""
+    times: dict[str, list[float]] = {name: [] for name in metrics}
+    for metric in metrics.values():
+        metric.all_pairs()
+    for _ in range(repeats):
+        for name, metric in metrics.items():
+            times[name].append(timed(metric.all_pairs))
+    base = times["uniform"]
+    return {
+        name: {
+            "seconds": spread(each),
+            "times_uniform": spread([a / b for a, b in zip(each, base, strict=True)]),
+            "times_uniform_at_best": min(each) / min(base),
+        }
+        for name, each in times.items()
+    }
 
 
 def main(repeats: int = 9) -> None:
@@ -64,6 +85,7 @@ def main(repeats: int = 9) -> None:
         "plain_numpy_s": spread(plain_times),
         "times_faster_than_plain_numpy": float(np.median(plain_times)) / median,
         "largest_difference_to_plain": float(difference),
+        "metrics": compared({name: metric_of(name, clips) for name in NAMES}, repeats),
     }
     json.dump(report, sys.stdout, indent=2)
     print()

@@ -10,12 +10,14 @@ import numpy as np
 def seconds_of(work: Callable[[], object], repeats: int) -> list[float]:
     """How long each of some repeats took, after one that is not counted."""
     work()
-    times = []
-    for _ in range(repeats):
-        started = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - started)
-    return times
+    return [timed(work) for _ in range(repeats)]
+
+
+def timed(work: Callable[[], object]) -> float:
+    """How long one run took."""
+    started = time.perf_counter()
+    work()
+    return time.perf_counter() - started
 
 
 def spread(values: list[float]) -> dict[str, float]:
