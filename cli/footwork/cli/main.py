@@ -17,7 +17,13 @@ from footwork.errors import FootworkError
 BAD_INPUT = 2
 INTERRUPTED = 130
 
-app = App(name="footwork", version=version("footwork"), help="Motion capture to a character that responds.")
+# interrupts are told by main, below
+app = App(
+    name="footwork",
+    version=version("footwork"),
+    help="Motion capture to a character that responds.",
+    suppress_keyboard_interrupt=False,
+)
 app.command(demo)
 app.command(build)
 app.command(inspect)
