@@ -10,6 +10,7 @@ from cyclopts.exceptions import CycloptsError
 from footwork.cli.build import build
 from footwork.cli.demo import demo
 from footwork.cli.inspect import inspect
+from footwork.cli.reproduce import reproduce
 from footwork.cli.score import score
 from footwork.cli.serve import serve
 from footwork.errors import FootworkError
@@ -29,12 +30,13 @@ app.command(build)
 app.command(inspect)
 app.command(serve)
 app.command(score)
+app.command(reproduce)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one subcommand and return its exit status: 0 done, 2 bad input, 130 interrupted."""
+    """Run one subcommand and return its exit status: 0 done, 1 done in part, 2 bad input, 130 interrupted."""
     try:
-        app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
     except (FootworkError, CycloptsError) as error:
         return _complain(str(error))
     except OSError as error:
@@ -42,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("footwork: interrupted", file=sys.stderr)
         return INTERRUPTED
-    return 0
+    return status or 0
 
 
 def _complain(message: str) -> int:
