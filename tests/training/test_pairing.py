@@ -56,3 +56,11 @@ def test_segments_that_nothing_equals_give_no_pairs():
 def test_an_unknown_rule_is_refused():
     with pytest.raises(InputError, match="no pairing rule 'all', expected one of plain, ratio, neighbours"):
         pairs_of(segments([1], [5]), "all")
+
+
+def test_more_pairs_than_memory_has_room_for_are_refused_before_they_are_made():
+    many = 1_000_000
+    with pytest.raises(
+        InputError, match=r"motions: 499999500000 pairs of 1000000 stretches of motion need about 49,999.9 GB of memory"
+    ):
+        pairs_of(segments(np.ones(many, dtype=int), np.full(many, 5)), "plain")

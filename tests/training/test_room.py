@@ -78,6 +78,6 @@ def test_what_fits_passes_and_what_does_not_is_refused_with_the_figures(machine)
     require_room(8 * GIB, "7 frames", "use fewer")
     with pytest.raises(
         InputError,
-        match=r"motions: 7 frames need about 9.66 GB of memory where 8.59 GB are left, expected less: use fewer",
+        match=r"motions: 7 frames need about 9.7 GB of memory where 8.6 GB are left, expected less: use fewer",
     ):
         require_room(9 * GIB, "7 frames", "use fewer")

@@ -5,11 +5,13 @@ from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion.angle import wrapped
+from footwork.training.room import require_room
 from footwork.training.segments import Segments
 
 RULES = ("plain", "ratio", "neighbours")
 LARGEST_RATIO = 2.0
 LARGEST_TURN = np.radians(30.0)  # by which the yaw changes of two flights may differ
+_BYTES_PER_PAIR = 100  # while they are listed and sorted
 
 
 def pairs_of(segments: Segments, rule: str = "ratio") -> NDArray[np.intp]:
@@ -24,7 +26,7 @@ def pairs_of(segments: Segments, rule: str = "ratio") -> NDArray[np.intp]:
             other, ``neighbours`` for those with equal signatures before and after them besides.
 
     Raises:
-        InputError: for another rule.
+        InputError: for another rule, or more pairs than memory has room for.
     """
     if rule not in RULES:
         raise InputError(f"no pairing rule {rule!r}, expected one of {', '.join(RULES)}", "pairing")
@@ -43,6 +45,8 @@ def _equal_pairs(keys: NDArray[np.intp]) -> NDArray[np.intp]:
     """All p < q whose rows of keys are equal, sorted.  # (S, K) -> (P, 2)"""
     kinds = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
     groups = [np.flatnonzero(kinds == kind) for kind in range(kinds.max(initial=-1) + 1)]
+    count = sum(len(group) * (len(group) - 1) // 2 for group in groups)
+    require_room(_BYTES_PER_PAIR * count, f"{count} pairs of {len(keys)} stretches of motion", "use fewer clips")
     within = [np.stack(np.triu_indices(len(group), 1), axis=1) for group in groups]
     pairs = [group[pair] for group, pair in zip(groups, within, strict=True)]
     joined = np.concatenate([np.zeros((0, 2), np.intp), *pairs])

@@ -22,4 +22,4 @@ def require_room(needed: float, what: str, instead: str, where: str = "motions")
 
 
 def _gigabytes(count: float) -> str:
-    return f"{count / 1e9:.3g} GB"
+    return f"{count / 1e9:,.1f} GB"
