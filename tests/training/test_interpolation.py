@@ -3,13 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.alignment import align
 from footwork.motion.body import default_body, rest_height
 from footwork.motion.clip import Clip
 from footwork.motion.kinematics import forward
-from footwork.motion.skeleton import Skeleton
 from footwork.training.centre_of_mass import centre_of_mass
 from footwork.training.chains import CONTEXT, NO_CHAIN, NO_SEGMENT
 from footwork.training.dataset import load_clips
@@ -277,25 +275,6 @@ def test_progress_is_told_up_to_the_end():
     interpolated([stepping(0, 60, 15)], BEHAVIOURS, 2, progress=shares.append)
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
-
-
-@pytest.mark.parametrize("weights", [0, -1, 100, 10**12])
-def test_absurd_weights_are_refused(weights):
-    with pytest.raises(InputError, match=f"{weights} weights, expected 1 to 99"):
-        interpolated([stepping(0, 30, 15)], BEHAVIOURS, weights)
-
-
-def test_unknown_rules_and_other_bodies_are_refused():
-    clip = stepping(0, 30, 15)
-    with pytest.raises(InputError, match="no pairing rule"):
-        interpolated([clip], BEHAVIOURS, 2, "best")
-    body = clip.skeleton
-    massless = replace(clip, skeleton=Skeleton(body.names, body.parents, body.offsets, body.ends, feet=body.feet))
-    with pytest.raises(InputError, match="no masses"):
-        interpolated([massless], BEHAVIOURS, 2)
-    taller = Skeleton(body.names, body.parents, body.offsets * 1.1, body.ends, body.masses, body.feet)
-    with pytest.raises(InputError, match="another body"):
-        interpolated([clip, replace(clip, skeleton=taller)], BEHAVIOURS, 2)
 
 
 @needs_motions

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.motion.skeleton import Skeleton
 from footwork.motion.threads import THREADS
-from footwork.training.blended_poses import BlendedPoses, blended_poses
+from footwork.training.blended_poses import Figure, blended_poses
 from footwork.training.chain_plan import Plan, blend_of
 from footwork.training.chains import CONTEXT
 from footwork.training.ranges import ranges
@@ -36,7 +35,7 @@ class Filled(NamedTuple):
 class Sources(NamedTuple):
     """What chains are computed from."""
 
-    body: Skeleton
+    figure: Figure
     segments: Segments
     tracks: Tracks
     contacts: NDArray[np.bool_]  # (F, feet) on the tracks
@@ -76,7 +75,7 @@ def parts(rows: NDArray) -> list[tuple[int, int]]:
 
 def _room(sources: Sources, plan: Plan) -> Filled:
     """Room for the results, the captured frames already in it."""
-    originals, joints = len(sources.tracks.places), sources.body.joint_count
+    originals, joints = len(sources.tracks.places), len(sources.figure.joints)
     first_node = originals + np.append(0, np.cumsum(plan.timing.frames))
     first_row = first_node + 2 * CONTEXT * np.arange(len(first_node))
     places = np.empty((first_row[-1], joints, 3))
@@ -89,7 +88,7 @@ def _room(sources: Sources, plan: Plan) -> Filled:
 def _fill(sources: Sources, plan: Plan, result: Filled, start: int, end: int) -> None:
     """Compute the chains start..end-1."""
     rows = blend_of(plan, np.arange(start, end))
-    poses = blended_poses(sources.body, sources.tracks, rows)
+    poses = blended_poses(sources.figure, sources.tracks, rows)
     result.places[result.first_row[start] : result.first_row[end]] = poses.places
     count = plan.timing.frames[start:end]
     played = ranges(result.first_row[start:end] - result.first_row[start] + CONTEXT, count)
@@ -131,7 +130,7 @@ def filled_poses(
     rows = plan.timing.frames + 2 * CONTEXT
 
     def fill(part: tuple[int, int]) -> None:
-        poses: BlendedPoses = blended_poses(sources.body, sources.tracks, blend_of(plan, np.arange(*part)))
+        poses = blended_poses(sources.figure, sources.tracks, blend_of(plan, np.arange(*part)))
         own = ranges(first_row[slice(*part)], rows[slice(*part)])
         root[own], rotations[own] = poses.root_position, poses.rotations
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion.clip import Clip
+from footwork.training.blended_poses import figure_of
 from footwork.training.chain_filling import KEPT, OFF_GRAVITY, SLIDING, Filled, Sources, filled, filled_poses
 from footwork.training.chain_plan import Plan, plan_of
 from footwork.training.chains import CONTEXT, NO_SEGMENT, Chains, chain_parts
@@ -53,7 +54,7 @@ def interpolated(
     nodes = nodes_of(clips, behaviours)
     segments = segments_of(clips)
     pairs = pairs_of(segments, pairing)
-    sources = Sources(nodes.skeleton, segments, tracks_of(clips), nodes.arrays["contacts"])
+    sources = Sources(figure_of(nodes.skeleton), segments, tracks_of(clips), nodes.arrays["contacts"])
     plan = plan_of(segments, sources.tracks, np.repeat(pairs, weights, axis=0), np.tile(levels, len(pairs)))
     result = filled(sources, plan, progress or (lambda share: None))
     chains = _kept(nodes, clips, plan, result)
@@ -114,7 +115,8 @@ def poses_of(
         end = own + clips[clip].frame_count
         root[own:end], rotations[own:end] = clips[clip].root_position, clips[clip].rotations
     mixed = which[~captured]
-    sources = Sources(chains.skeleton, segments_of(clips), tracks_of(clips), chains.contacts[: chains.original_count])
+    contacts = chains.contacts[: chains.original_count]
+    sources = Sources(figure_of(chains.skeleton), segments_of(clips), tracks_of(clips), contacts)
     pairs = np.stack([chains.first[mixed], chains.second[mixed]], axis=1)
     plan = plan_of(sources.segments, sources.tracks, pairs, chains.chain_weight[mixed])
     filled_poses(sources, plan, starts[~captured], root, rotations)
