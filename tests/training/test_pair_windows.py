@@ -8,7 +8,7 @@ from footwork.motion.dynamics_metric import align_pair_windows
 from footwork.motion.metric import UNIT
 from footwork.motion.pair_weights import PairWeights, dynamics_weights
 from footwork.motion.window import LENGTH, window_weights
-from footwork.training.pair_windows import full_pair_cost, standing_of
+from footwork.training.pair_windows import PRODUCTS, pair_cost, pair_products, standing_of
 
 
 def laid_out(windows, weights: PairWeights, lanes: int = 8):
@@ -25,8 +25,10 @@ def laid_out(windows, weights: PairWeights, lanes: int = 8):
 def cost_of(first, second, contacts, weights) -> float:
     frames, root = laid_out(np.stack([first, second]), weights)
     standing = standing_of(np.concatenate(contacts), weights, root)
-    start = np.array([0, LENGTH])
-    return full_pair_cost(frames, start, window_weights(), standing, 0, 1)
+    products = np.empty((LENGTH, PRODUCTS))
+    for k in range(LENGTH):
+        pair_products(frames, standing, k, LENGTH + k, products[k])
+    return pair_cost(products, window_weights())
 
 
 @settings(max_examples=40, deadline=None)

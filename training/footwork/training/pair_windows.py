@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from footwork.motion.pair_weights import PairWeights
 
+PRODUCTS = 8  # of two frames
+
 
 class Standing(NamedTuple):
     """What stands at each frame, for compiled code.
@@ -39,45 +41,55 @@ def standing_of(contacts: NDArray[np.bool_], weights: PairWeights, root_weights:
 
 # Sums may be taken in any order, as in ``windows``.
 @numba.njit(cache=True, nogil=True, fastmath={"reassoc"})
-def full_pair_cost(frames: NDArray, start: NDArray, weights: NDArray, standing: Standing, i: int, j: int) -> float:
-    """s of rows i and j: all of both windows taken in, each frame with its own friction.
+def pair_products(frames: NDArray, standing: Standing, a: int, b: int, products: NDArray) -> None:
+    """Sums over the points of two frames under the weights of what stands at them.
 
     Args:
         frames: places scaled by root mass parts over UNIT, as in Windows.  # (F, 3, P)
-        start: first frame of each row's window.  # (R,)
-        weights: of a window's frames.  # (LENGTH,)
         standing: what stands at each frame.
-        i: a row.
-        j: another.
+        a: a frame.
+        b: another.
+        products: the result: x x' + z z', x z' - z x', squares of both less 2 y y', x, z, x', z' and the weights.
+            # (PRODUCTS,)
     """
-    total, square, cosine, sine = 0.0, 0.0, 0.0, 0.0
+    times, root = standing.times[standing.kind[a], standing.kind[b]], standing.root_weights
+    cosine, sine, square, total = 0.0, 0.0, 0.0, 0.0
     x, z, other_x, other_z = 0.0, 0.0, 0.0, 0.0
-    root = standing.root_weights
+    for p in range(times.shape[0]):
+        first_x, first_z, second_x, second_z = frames[a, 0, p], frames[a, 2, p], frames[b, 0, p], frames[b, 2, p]
+        rise, weight, pull = frames[a, 1, p] - frames[b, 1, p], times[p], times[p] * root[p]
+        cosine += weight * (first_x * second_x + first_z * second_z)
+        sine += weight * (first_x * second_z - first_z * second_x)
+        square += weight * (first_x**2 + first_z**2 + second_x**2 + second_z**2 + rise * rise)
+        x += pull * first_x
+        z += pull * first_z
+        other_x += pull * second_x
+        other_z += pull * second_z
+        total += pull * root[p]
+    products[0], products[1], products[2] = cosine, sine, square
+    products[3], products[4], products[5], products[6], products[7] = x, z, other_x, other_z, total
+
+
+@numba.njit(cache=True, nogil=True)
+def pair_cost(products: NDArray, weights: NDArray) -> float:
+    """s in closed form from the products of two windows' frames, each frame with its own friction (conventions.md 1).
+
+    Args:
+        products: of the first frames of both windows, of the second and so on.  # (LENGTH, PRODUCTS)
+        weights: of a window's frames.  # (LENGTH,)
+    """
+    cosine, sine, square, total = 0.0, 0.0, 0.0, 0.0
+    x, z, other_x, other_z = 0.0, 0.0, 0.0, 0.0
     for k in range(weights.shape[0]):
-        a, b = frames[start[i] + k], frames[start[j] + k]
-        times = standing.times[standing.kind[start[i] + k], standing.kind[start[j] + k]]
-        # sums of one frame, then weighted: t sum of weights, q squares, c and s products, the rest as above
-        t, q, c, s, ax, az, bx, bz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for p in range(times.shape[0]):
-            weight = times[p]
-            pull = weight * root[p]
-            t += pull * root[p]
-            ax += pull * a[0, p]
-            az += pull * a[2, p]
-            bx += pull * b[0, p]
-            bz += pull * b[2, p]
-            rise = a[1, p] - b[1, p]
-            q += weight * (a[0, p] * a[0, p] + a[2, p] * a[2, p] + b[0, p] * b[0, p] + b[2, p] * b[2, p] + rise * rise)
-            c += weight * (a[0, p] * b[0, p] + a[2, p] * b[2, p])
-            s += weight * (a[0, p] * b[2, p] - a[2, p] * b[0, p])
-        total += weights[k] * t
-        square += weights[k] * q
-        cosine += weights[k] * c
-        sine += weights[k] * s
-        x += weights[k] * ax
-        z += weights[k] * az
-        other_x += weights[k] * bx
-        other_z += weights[k] * bz
+        w = weights[k]
+        cosine += w * products[k, 0]
+        sine += w * products[k, 1]
+        square += w * products[k, 2]
+        x += w * products[k, 3]
+        z += w * products[k, 4]
+        other_x += w * products[k, 5]
+        other_z += w * products[k, 6]
+        total += w * products[k, 7]
     square -= (x * x + z * z + other_x * other_x + other_z * other_z) / total
     cosine -= (x * other_x + z * other_z) / total
     sine -= (x * other_z - z * other_x) / total
