@@ -3,16 +3,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.alignment import align
 from footwork.motion.body import default_body, rest_height
 from footwork.motion.clip import Clip
 from footwork.motion.kinematics import forward
+from footwork.training import room
 from footwork.training.centre_of_mass import centre_of_mass
 from footwork.training.chains import CONTEXT, NO_CHAIN, NO_SEGMENT
 from footwork.training.dataset import load_clips
-from footwork.training.interpolation import estimated_rows, interpolated, poses_of
-from footwork.training.pairing import pairs_of
+from footwork.training.interpolation import interpolated, poses_of
 from footwork.training.segments import GRAVITY, segments_of
 from jumps import jump_clip
 from motion_samples import sample_clip
@@ -245,14 +246,24 @@ def test_a_foot_stands_where_both_sources_stand():
     np.testing.assert_array_equal(chains.contacts[30:], np.reshape(wanted, (-1, 2)))
 
 
-def test_the_estimate_is_what_comes_out():
+def test_more_rows_than_memory_has_room_for_are_refused_before_any_is_made(monkeypatch):
     clips = [stepping(0, 60, 15), stepping(1, 70, 18)]
-    segments = segments_of(clips)
-    for rule in ("plain", "ratio"):
-        nodes, rows = estimated_rows(segments, pairs_of(segments, rule), 4)
-        chains, report = interpolated(clips, BEHAVIOURS, 4, rule)
-        assert report["chains"] == report["kept"]
-        assert (nodes, rows) == (chains.node_count - 130, chains.row_count - 130)
+    rows = interpolated(clips, BEHAVIOURS, 4)[0].row_count - 130
+    monkeypatch.setattr(room, "available_bytes", lambda: 1500 * rows)
+    assert interpolated(clips, BEHAVIOURS, 4)[0].row_count == rows + 130
+    monkeypatch.setattr(room, "available_bytes", lambda: 1500 * rows - 1)
+    with pytest.raises(InputError, match=f"{rows} rows of interpolated motion need"):
+        interpolated(clips, BEHAVIOURS, 4)
+
+
+def test_with_a_threshold_pairs_have_as_many_weights_as_hops_need():
+    clips = [stepping(0, 60, 15), stepping(1, 70, 18)]
+    chains, report = interpolated(clips, BEHAVIOURS, 9, threshold=20.0)
+    fixed, _ = interpolated(clips, BEHAVIOURS, 9)
+    assert 0.0 < report["weights_a_pair"] < 9.0
+    assert chains.node_count < fixed.node_count
+    assert interpolated(clips, BEHAVIOURS, 9, threshold=1e-6)[0].node_count == fixed.node_count
+    assert interpolated(clips, BEHAVIOURS, 9, threshold=1e6)[0].chain_count == len(clips)
 
 
 def test_one_clip_is_paired_within_itself():

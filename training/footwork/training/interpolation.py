@@ -15,11 +15,14 @@ from footwork.training.chain_plan import Plan, plan_of
 from footwork.training.chains import CONTEXT, NO_SEGMENT, Chains, chain_parts
 from footwork.training.nodes import Nodes, nodes_of
 from footwork.training.pairing import pairs_of
+from footwork.training.room import require_room
 from footwork.training.segments import Segments, segments_of
-from footwork.training.source_tracks import tracks_of
-from footwork.training.timing import timing_of
+from footwork.training.source_tracks import Tracks, tracks_of
+from footwork.training.timing import Timing
+from footwork.training.weight_counts import MOST_WEIGHTS, needed_weights, pair_distances, weights_of_pairs
 
-MOST_WEIGHTS = 99
+# measured: 0.6 kB to interpolate a row, and what the search for transitions holds of it
+_BYTES_PER_ROW = 1500
 _ROWS_MOVED = 1 << 16
 
 
@@ -28,6 +31,7 @@ def interpolated(
     behaviours: tuple[str, ...],
     weights: int = 9,
     pairing: str = "ratio",
+    threshold: float | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[Chains, dict[str, Any]]:
     """Clips, and all segments between theirs that keep to physics, as chains.
@@ -40,6 +44,7 @@ def interpolated(
         behaviours: the behaviours that commands may ask for.
         weights: how many weights n between two segments: 1 / (n + 1), ..., n / (n + 1).
         pairing: which pairs, see ``pairs_of``.
+        threshold: where given, pairs have only as many weights, up to ``weights``, as hops under it need.
         progress: told the share of the work done.
 
     Returns:
@@ -50,46 +55,39 @@ def interpolated(
         InputError: as ``nodes_of``, for an unknown rule, weights outside 1..MOST_WEIGHTS, a body without masses.
     """
     began = time.perf_counter()
-    levels = weight_levels(weights)
     nodes = nodes_of(clips, behaviours)
     segments = segments_of(clips)
     pairs = pairs_of(segments, pairing)
     sources = Sources(figure_of(nodes.skeleton), segments, tracks_of(clips), nodes.arrays["contacts"])
-    plan = plan_of(segments, sources.tracks, np.repeat(pairs, weights, axis=0), np.tile(levels, len(pairs)))
+    counts = _weights(segments, sources.tracks, pairs, weights, threshold)
+    plan = plan_of(segments, sources.tracks, np.repeat(pairs, counts, axis=0), weights_of_pairs(counts))
+    _require_room(plan.timing)
     result = filled(sources, plan, progress or (lambda share: None))
     chains = _kept(nodes, clips, plan, result)
-    report = {"pairing": pairing, "weights": weights, "pairs": len(pairs)}
+    report = {"pairing": pairing, "weights": weights, "weights_a_pair": float(counts.mean()) if len(counts) else 0.0}
+    report |= {"pairs": len(pairs)}
     report |= _of_segments(segments) | _of_chains(result.verdict)
     report |= {"nodes": chains.node_count, "rows": chains.row_count, "seconds": time.perf_counter() - began}
     return chains, report
 
 
-def weight_levels(weights: int) -> NDArray[np.float64]:
-    """The weights 1 / (n + 1), ..., n / (n + 1) (convention).  # (n,)
+def _weights(
+    segments: Segments, tracks: Tracks, pairs: NDArray[np.intp], most: int, threshold: float | None
+) -> NDArray[np.intp]:
+    """How many weights each pair has.  # (P,)"""
+    if not 1 <= most <= MOST_WEIGHTS:
+        raise InputError(f"{most} weights, expected 1 to {MOST_WEIGHTS}", "interpolation")
+    if threshold is None:
+        return np.full(len(pairs), most)
+    move = plan_of(segments, tracks, pairs, np.full(len(pairs), 0.5)).move
+    return needed_weights(pair_distances(segments, tracks, pairs, move), threshold, most)
 
-    Raises:
-        InputError: for n outside 1..MOST_WEIGHTS.
-    """
-    if not 1 <= weights <= MOST_WEIGHTS:
-        raise InputError(f"{weights} weights, expected 1 to {MOST_WEIGHTS}", "interpolation")
-    return np.arange(1, weights + 1) / (weights + 1)
 
-
-def estimated_rows(segments: Segments, pairs: ArrayLike, weights: int) -> tuple[int, int]:
-    """How many nodes and rows interpolated chains have before any is left out, without computing one.
-
-    Args:
-        segments: of the clips.
-        pairs: as of ``pairs_of``.  # (P, 2)
-        weights: how many weights.
-
-    Raises:
-        InputError: as ``weight_levels``.
-    """
-    pairs = np.asarray(pairs)
-    count = [timing_of(segments, pairs, np.full(len(pairs), w)).frames for w in weight_levels(weights)]
-    nodes = int(np.sum(count))
-    return nodes, nodes + 2 * CONTEXT * weights * len(pairs)
+def _require_room(timing: Timing) -> None:
+    """Refuse chains that memory has no room for, before any is made."""
+    rows = int(timing.frames.sum()) + 2 * CONTEXT * len(timing.frames)
+    instead = "use fewer clips, fewer weights or a stricter pairing"
+    require_room(_BYTES_PER_ROW * rows, f"{rows} rows of interpolated motion", instead)
 
 
 def poses_of(
