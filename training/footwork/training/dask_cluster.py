@@ -146,7 +146,12 @@ class Cluster:
                 require_alike(worker, answer)
 
     async def _scattered(self, arrays: Sequence[Any]) -> list[Any]:
-        return await self._client.scatter(list(arrays), broadcast=True, hash=False) if arrays else []
+        once = {id(array): array for array in arrays}
+        if not once:
+            return []
+        sent = await self._client.scatter(list(once.values()), broadcast=True, hash=False)
+        standing = dict(zip(once, sent, strict=True))
+        return [standing[id(array)] for array in arrays]
 
     async def _called(self, call: Callable[..., Any], arguments: Sequence[Any]) -> Any:
         """The result of a call on a worker; it is forgotten there as soon as it is here or wanted no more."""
