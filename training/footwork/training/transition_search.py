@@ -1,13 +1,30 @@
-"""All transitions between the nodes of chains: pairs less unlike than a threshold, at local minima of the metric."""
+"""All transitions between the nodes of chains: pairs less unlike than a threshold, at local minima of the metric.
+
+The result is that of comparing all pairs, edge for edge; most pairs are never compared. A tree of balls over short
+sketches of the windows, whose distances are never above the root of s, leaves the pairs that may be under the threshold
+(``ball_tree``, ``near_rows``); these are evaluated in full (``chain_minima``). A metric whose weights depend on the
+pair fits in where ``chain_minima`` evaluates, with sketches of a metric of fixed weights that is never above it.
+"""
 
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from footwork.motion.metric import PointCloudMetric
+from footwork.errors import InputError
+from footwork.motion.arrays import require_finite, require_shape
+from footwork.training.backend import run_tasks
+from footwork.training.ball_tree import tree_of
+from footwork.training.chain_minima import Rows, minima_of_rows
 from footwork.training.chains import Chains
-from footwork.training.transitions import Minima, local_minima
+from footwork.training.near_rows import Forest, forest_of
+from footwork.training.sketches import GROUND, HEIGHT, Sketches, sketches_of
+from footwork.training.transitions import Minima
+from footwork.training.window_basis import shares_of
+from footwork.training.windows import Windows, windows_of
+
+TASKS = 128  # at most; the result is the same for any number
+_FEWEST = 256  # rows in a task, so that small searches are not cut too fine
 
 
 def search(
@@ -18,21 +35,93 @@ def search(
     active: NDArray[np.bool_] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Minima:
-    """Pairs of nodes i < j with s under ``threshold`` that are local minima (conventions.md 2), sorted by i, then j."""
-    rows = chains.length + 2 * chains.context
-    metric = PointCloudMetric(np.split(chains.places, np.cumsum(rows)[:-1]), joint_weights)
-    fringe = np.minimum(chains.context, 1)
-    length = chains.length + 2 * fringe
-    start = np.cumsum(length) - length
-    row = np.arange(length.sum()) + np.repeat(chains.first_row + chains.context - fringe - start, length)
-    node = np.full(chains.row_count, -1)
-    node[chains.row_of_node] = np.arange(chains.node_count)
-    costs = metric.all_pairs()[np.ix_(row, row)]
-    found = local_minima(costs, length.tolist(), threshold)
-    i, j = node[row[found.i]], node[row[found.j]]
-    last = np.zeros(chains.node_count, dtype=bool)
-    last[chains.last_node] = True
-    kept = (i >= 0) & (j >= 0) & ~(last[i] & last[j])
-    if active is not None:
-        kept &= active[i] | active[j]
-    return Minima(i[kept], j[kept], found.cost[kept])
+    """Pairs of nodes i < j with s under ``threshold`` that are local minima (conventions.md 2), sorted by i, then j.
+
+    A pair's neighbours are those of the eight pairs around it that lie in the same two chains, the rows before and
+    after an interpolated chain included. Frames of one chain nearer than half a second are no transition, nor are
+    two last nodes. Of equal neighbours the first in reading order counts as the lower one.
+
+    Args:
+        chains: the nodes.
+        threshold: of s, above 0.
+        joint_weights: of the metric, scaled to sum 1; equal where not given.  # (J,)
+        active: only pairs with at least one of these nodes; all where not given.  # (N,)
+        progress: told the share that is done.
+
+    Raises:
+        InputError: for a threshold that is not above 0, or weights that cannot be scaled.
+    """
+    rows, sketches = prepared(chains, threshold, joint_weights, active)
+    everyone = forest_of(tree_of(sketches, np.arange(len(rows.node))), threshold)
+    awake = everyone if active is None else forest_of(tree_of(sketches, np.flatnonzero(rows.awake)), threshold)
+    parts = run_tasks(_found, (rows, everyone, awake, threshold), _tasks(rows), progress)
+    pairs = np.concatenate([part[0] for part in parts])
+    return Minima(pairs[:, 0].astype(np.intp), pairs[:, 1].astype(np.intp), np.concatenate([part[1] for part in parts]))
+
+
+def prepared(
+    chains: Chains, threshold: float, joint_weights: ArrayLike | None, active: NDArray[np.bool_] | None
+) -> tuple[Rows, Sketches]:
+    """What a search needs of each row, and the sketches that trees are made of.
+
+    Raises:
+        InputError: as ``search``.
+    """
+    if not threshold > 0.0:
+        raise InputError(f"{threshold} is no threshold, expected a number above 0", "threshold")
+    windows = windows_of(chains, _scaled(joint_weights, chains.places.shape[1]))
+    sketches = sketches_of(shares_of(windows, GROUND, HEIGHT))
+    wanted = np.ones(chains.node_count, dtype=bool) if active is None else np.asarray(active, dtype=bool)
+    active_rows = (windows.node >= 0) & wanted[windows.node]
+    goes_on = np.ones(chains.node_count, dtype=bool)
+    goes_on[chains.last_node] = False
+    rows = Rows(
+        frames=windows.frames,
+        start=windows.start,
+        mean=windows.mean,
+        energy=windows.energy,
+        weights=windows.weights,
+        node=windows.node,
+        first=windows.first,
+        last=windows.last,
+        leaves=(windows.node >= 0) & goes_on[windows.node],
+        active=active_rows,
+        awake=_awake(active_rows, windows),
+        sketch=sketches.values,
+        sketch_energy=sketches.energy,
+    )
+    return rows, sketches
+
+
+def _awake(active: NDArray[np.bool_], windows: Windows) -> NDArray[np.bool_]:
+    """Active rows and those next to them in their chain; at least one, so that there is something to search in."""
+    at = np.flatnonzero(active)
+    awake = active.copy()
+    awake[np.minimum(at + 1, windows.last[at])] = True
+    awake[np.maximum(at - 1, windows.first[at])] = True
+    awake[0] |= not awake.any()
+    return awake
+
+
+def _scaled(weights: ArrayLike | None, joints: int) -> NDArray[np.float64]:
+    weights = np.ones(joints) if weights is None else np.asarray(weights, dtype=np.float64)
+    require_shape(weights, (joints,), "joint weights", "metric")
+    require_finite(weights, "joint weights", "metric")
+    if not ((weights >= 0).all() and weights.sum() > 0):
+        raise InputError("joint weights must be zero or more, not all zero", "metric")
+    return weights / weights.sum()
+
+
+def _tasks(rows: Rows) -> list[tuple[int, int]]:
+    """First row and the row past the last of stretches of whole chains, about equally many rows each."""
+    starts = np.flatnonzero(np.arange(len(rows.first)) == rows.first)
+    count = max(min(TASKS, len(rows.first) // _FEWEST), 1)
+    aims = np.linspace(0, len(rows.first), count + 1)[:-1]
+    cuts = np.unique(starts[np.minimum(np.searchsorted(starts, aims), len(starts) - 1)])
+    return list(zip(cuts.tolist(), [*cuts[1:].tolist(), len(rows.first)], strict=True))
+
+
+def _found(
+    task: tuple[int, int], rows: Rows, everyone: Forest, awake: Forest, threshold: float
+) -> tuple[NDArray, NDArray, NDArray]:
+    return minima_of_rows(*task, rows, everyone, awake, threshold)
