@@ -18,10 +18,12 @@ class RandomGraph(NamedTuple):
     base: NDArray[np.int32]
 
 
-def random_graph(seed: int, *, clips: int = 3, chains: int = 12, edges: int = 120, ties: bool = False) -> RandomGraph:
-    """Clips and chains of 2 to 8 frames, sorted edges of 1 to 6 frames; few different costs where ``ties``."""
+def random_graph(
+    seed: int, *, clips: int = 3, chains: int = 12, edges: int = 120, ties: bool = False, longest: int = 8
+) -> RandomGraph:
+    """Clips of 2 to ``longest`` frames, chains of 2 to 8, sorted edges of 1 to 6 frames, of few costs for ``ties``."""
     random = np.random.default_rng(seed)
-    lengths = random.integers(2, 9, clips + chains)
+    lengths = np.concatenate([random.integers(2, longest + 1, clips), random.integers(2, 9, chains)])
     count, originals = int(lengths.sum()), int(lengths[:clips].sum())
     natural = np.setdiff1d(np.arange(count), np.cumsum(lengths) - 1)
     steps = UNIT // 2 if ties else 1
