@@ -18,8 +18,9 @@ from footwork.training.recipe import Built
 from footwork.training.stages import Progress, Stages
 from footwork.training.standard_recipe import build_standard
 from footwork.training.value_iteration import solve
+from footwork.training.well_connected_recipe import build_well_connected
 
-_RECIPES = {"standard": build_standard}
+_RECIPES = {"standard": build_standard, "well-connected": build_well_connected}
 _AS_USUAL = GraphOptions()
 
 

@@ -36,6 +36,10 @@ class ChainEdges:
         for name, kind in (("source", np.int32), ("target", np.int32), ("cost", np.float64), ("natural", np.bool_)):
             object.__setattr__(self, name, frozen(getattr(self, name), kind))
 
+    def some(self, edges: NDArray[np.intp]) -> "ChainEdges":
+        """Chosen edges, ascending."""
+        return ChainEdges(self.source[edges], self.target[edges], self.cost[edges], self.natural[edges])
+
 
 def edges_of_chains(
     chains: Chains, minima: Minima, threshold: float, joint_weights: ArrayLike | None = None

@@ -2,13 +2,15 @@
 
 import math
 from dataclasses import asdict, dataclass
+from typing import Literal
 
 from footwork.errors import InputError
 
-GRAPHS = ("standard",)
+GRAPHS = ("standard", "well-connected")
 PAIRINGS = ("plain", "ratio", "neighbours")
 ORDERS = ("frames", "reverse", "random")
 MAX_WEIGHTS = 99
+AUTO_WEIGHTS = 9  # as many at most where they are chosen by need
 # what only the well-connected graph has
 _WELL_CONNECTED = ("mu", "weights", "pairing", "order")
 
@@ -21,7 +23,8 @@ class GraphOptions:
         graph: The kind of motion graph: standard or well-connected.
         threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm).
         mu: Paths of a well-connected graph may cost this many times the best one's; more makes it smaller.
-        weights: How many motions lie between the two of each pair in a well-connected graph.
+        weights: How many motions lie between the two of each pair in a well-connected graph: a number, or auto for as
+            many, up to nine, as single hops under the threshold need.
         pairing: Which stretches of motion are interpolated: plain (all with the same feet on the ground), ratio (of
             durations at most 2) or neighbours (of like stretches before and after, too).
         order: The order in which a well-connected graph takes the frames that paths begin at: frames, reverse, random.
@@ -33,7 +36,7 @@ class GraphOptions:
     graph: str = "standard"
     threshold: float = 1.0
     mu: float = 5.0
-    weights: int = 9
+    weights: int | Literal["auto"] = "auto"
     pairing: str = "ratio"
     order: str = "frames"
 
@@ -45,8 +48,8 @@ class GraphOptions:
             raise InputError(f"{self.threshold} is no threshold, expected a positive number", "--threshold")
         if not (math.isfinite(self.mu) and self.mu >= 1.0):
             raise InputError(f"{self.mu}, expected a number from 1 up", "--mu")
-        if not 1 <= self.weights <= MAX_WEIGHTS:
-            raise InputError(f"{self.weights}, expected 1 to {MAX_WEIGHTS}", "--weights")
+        if self.weights != "auto" and not 1 <= self.weights <= MAX_WEIGHTS:
+            raise InputError(f"{self.weights}, expected auto or 1 to {MAX_WEIGHTS}", "--weights")
 
     def record(self) -> dict[str, str | float | int]:
         """Those that matter for this kind of graph, by name."""
