@@ -54,8 +54,7 @@ class PointCloudMetric:
 
     def __init__(self, places: Sequence[NDArray], joint_weights: ArrayLike | None = None) -> None:
         self.points = WindowedPoints(places)
-        count = self.points.point_count
-        self.joint_weights = _scaled(np.ones(count) if joint_weights is None else joint_weights, count)
+        self.joint_weights = scaled_weights(joint_weights, self.points.point_count)
 
     @classmethod
     def of_clips(cls, clips: Iterable[Clip]) -> "PointCloudMetric":
@@ -100,7 +99,7 @@ def align_windows(first: ArrayLike, second: ArrayLike, joint_weights: ArrayLike 
     points = first.shape[-2]
     for name, values in (("first", first), ("second", second)):
         require_shape(values, (*[None] * (values.ndim - 3), LENGTH, points, 3), f"{name} window", "metric")
-    scaled = _scaled(np.ones(points) if joint_weights is None else joint_weights, points)
+    scaled = scaled_weights(joint_weights, points)
     weights = (window_weights()[:, None] * scaled).ravel()
     flat = (-1, LENGTH * points, 3)
     shape = np.broadcast_shapes(first.shape[:-3], second.shape[:-3])
@@ -108,8 +107,13 @@ def align_windows(first: ArrayLike, second: ArrayLike, joint_weights: ArrayLike 
     return Alignment(*(part.reshape(shape) for part in found))
 
 
-def _scaled(weights: ArrayLike, points: int) -> NDArray[np.float64]:
-    weights = np.asarray(weights, dtype=np.float64)
+def scaled_weights(weights: ArrayLike | None, points: int) -> NDArray[np.float64]:
+    """Weights of points scaled to sum 1, equal where not given.  # (P,)
+
+    Raises:
+        InputError: for another number of weights, one that is negative or not finite, or all of them zero.
+    """
+    weights = np.ones(points) if weights is None else np.asarray(weights, dtype=np.float64)
     require_shape(weights, (points,), "joint weights", "metric")
     if not (np.isfinite(weights).all() and (weights >= 0).all() and weights.sum() > 0):
         raise InputError("joint weights must be zero or more, not all zero", "metric")

@@ -27,6 +27,11 @@ class Standing(NamedTuple):
     root_weights: NDArray[np.float64]
 
 
+def fixed_standing() -> Standing:
+    """For weights that do not depend on what stands: empty."""
+    return Standing(np.zeros(0, np.int8), np.zeros((0, 0, 0)), np.zeros(0))
+
+
 def standing_of(contacts: NDArray[np.bool_], weights: PairWeights, root_weights: NDArray[np.float64]) -> Standing:
     """What stands at F frames (F, feet), for points whose places are scaled by ``root_weights`` (>= P,)."""
     feet = contacts.shape[1]

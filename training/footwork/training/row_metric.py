@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.alignment import Alignment
 from footwork.motion.dynamics_metric import align_pair_windows
-from footwork.motion.metric import UNIT, align_windows
+from footwork.motion.metric import UNIT, align_windows, scaled_weights
 from footwork.motion.metrics import fixed_cloud
 from footwork.motion.pair_weights import PairWeights, dynamics_weights
 from footwork.motion.window import RADIUS
@@ -23,14 +23,21 @@ class RowMetric:
     Args:
         chains: whose M rows.
         points: world places of the metric's points, metres.  # (M, P, 3)
-        weights: of the points, the same for all pairs, sum 1; s under them alone is never more than s.  # (P,)
+        weights: of the points, the same for all pairs, scaled to sum 1; s under them alone is never more than
+            s.  # (P,)
         pair: the weights of each pair, for a metric that has such; their part ``mass`` is ``weights``.
+
+    Raises:
+        InputError: for weights that do not fit the points or cannot be scaled.
     """
 
     chains: Chains
     points: NDArray[np.float64]
     weights: NDArray[np.float64]
     pair: PairWeights | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "weights", scaled_weights(self.weights, self.points.shape[1]))
 
     def align(self, here: NDArray[np.intp], there: NDArray[np.intp]) -> Alignment:
         """How the windows of rows ``there`` go onto those of rows ``here``, each (n,); square / UNIT^2 is s."""
@@ -50,12 +57,19 @@ class RowMetric:
         return align_pair_windows(self.points[first], self.points[second], *standing, self.pair)
 
 
+def uniform_rows(chains: Chains) -> RowMetric:
+    """The uniform metric over the rows of chains: all joints alike."""
+    return RowMetric(chains, chains.places, np.ones(chains.places.shape[1]))
+
+
 def row_metric(name: str, chains: Chains) -> RowMetric:
     """The metric called ``name`` (footwork.motion.metrics) over the rows of chains.
 
     Raises:
         InputError: for an unknown name, or a body that lacks what the metric needs.
     """
+    if name == "uniform":
+        return uniform_rows(chains)
     if name == "dynamics":
         pair = dynamics_weights(chains.skeleton)
         return RowMetric(chains, chains.places, pair.mass, pair)
