@@ -4,15 +4,12 @@ from dataclasses import dataclass
 
 import numba
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from footwork.motion.arrays import frozen
-from footwork.motion.metric import UNIT, align_windows
-from footwork.motion.window import RADIUS
 from footwork.training.chains import NO_CHAIN, Chains
+from footwork.training.row_metric import RowMetric, uniform_rows
 from footwork.training.transitions import Minima
-
-_WINDOWS_AT_ONCE = 4096
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,9 +38,7 @@ class ChainEdges:
         return ChainEdges(self.source[edges], self.target[edges], self.cost[edges], self.natural[edges])
 
 
-def edges_of_chains(
-    chains: Chains, minima: Minima, threshold: float, joint_weights: ArrayLike | None = None
-) -> ChainEdges:
+def edges_of_chains(chains: Chains, minima: Minima, threshold: float, metric: RowMetric | None = None) -> ChainEdges:
     """All edges over the nodes of chains (conventions.md 2).
 
     Natural edges lead to the next frame of a chain. A minimum (i, j) gives i -> j + 1 and j -> i + 1 where those are
@@ -54,13 +49,13 @@ def edges_of_chains(
         chains: the nodes.
         minima: their transitions.
         threshold: joins cost less than this s.
-        joint_weights: of the metric, as in ``PointCloudMetric``.  # (J,)
+        metric: of these chains, the uniform one where not given.
     """
     goes_on = np.ones(chains.node_count, dtype=bool)
     goes_on[chains.last_node] = False
     natural = np.flatnonzero(goes_on)
     there, back = goes_on[minima.j], goes_on[minima.i]
-    join_source, join_target, join_cost = _joins(chains, threshold, joint_weights)
+    join_source, join_target, join_cost = _joins(metric or uniform_rows(chains), threshold)
     source = np.concatenate([natural, minima.i[there], minima.j[back], join_source], dtype=np.int32)
     target = np.concatenate([natural + 1, minima.j[there] + 1, minima.i[back] + 1, join_target], dtype=np.int32)
     cost = np.concatenate([np.zeros(len(natural)), minima.cost[there], minima.cost[back], join_cost])
@@ -68,27 +63,12 @@ def edges_of_chains(
     return ChainEdges(source[order], target[order], cost[order], order < len(natural))
 
 
-def row_windows(chains: Chains, rows: NDArray[np.intp]) -> NDArray[np.float64]:
-    """World places of the windows of chosen rows, held at the ends of their chains, metres.  # (n, LENGTH, J, 3)"""
-    chain = np.searchsorted(chains.first_row, rows, side="right") - 1
-    first = chains.first_row[chain]
-    last = first + (chains.length + 2 * chains.context)[chain] - 1
-    around = rows[:, None] + np.arange(-RADIUS, RADIUS + 1)
-    return chains.places[np.clip(around, first[:, None], last[:, None])]
-
-
-def _joins(
-    chains: Chains, threshold: float, joint_weights: ArrayLike | None
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+def _joins(metric: RowMetric, threshold: float) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
     """Source, target and cost of the joins under the threshold."""
+    chains = metric.chains
     chain = np.flatnonzero(chains.followers != NO_CHAIN)
     source, target = chains.last_node[chain], chains.first_node[chains.followers[chain]]
-    here, there = chains.row_of_node[source], chains.row_of_node[target] - 1
-    cost = np.empty(len(chain))
-    for begun in range(0, len(chain), _WINDOWS_AT_ONCE):
-        part = slice(begun, begun + _WINDOWS_AT_ONCE)
-        windows = row_windows(chains, here[part]), row_windows(chains, there[part])
-        cost[part] = align_windows(*windows, joint_weights).square / UNIT**2
+    cost = metric.costs(chains.row_of_node[source], chains.row_of_node[target] - 1)
     kept = cost < threshold
     return source[kept], target[kept], cost[kept]
 

@@ -1,22 +1,21 @@
 """A motion graph out of some nodes of chains and the edges that join them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
-from footwork.motion.metric import align_windows
-from footwork.training.chain_edges import ChainEdges, row_windows
+from footwork.training.chain_edges import ChainEdges
 from footwork.training.chains import Chains
 from footwork.training.interpolation import poses_of
 from footwork.training.planar_poses import planar_poses
+from footwork.training.row_metric import RowMetric, uniform_rows
 from footwork.training.standard_graph import moved, relative
 
 _SOURCES = ("clip", "frame", "other_clip", "other_frame", "weight", "label", "behaviour", "contacts")
-_PAIRS_AT_ONCE = 2048
 
 
 def graph_of_chains(
@@ -25,7 +24,7 @@ def graph_of_chains(
     nodes: NDArray[np.intp],
     edges: ChainEdges,
     sigma: float,
-    joint_weights: ArrayLike | None = None,
+    metric: RowMetric | None = None,
 ) -> MotionGraph:
     """The motion graph of some nodes of chains; a transition's two sides are aligned by the metric.
 
@@ -35,18 +34,16 @@ def graph_of_chains(
         nodes: the nodes, ascending.  # (n,)
         edges: edges between these nodes, by their numbers in the chains.
         sigma: the task's smoothness_sigma: smoothness is exp(-s / sigma).
-        joint_weights: of the metric that aligns, equal where not given.  # (P,)
+        metric: that aligns, of these chains; the uniform one where not given.
     """
     poses = _poses(clips, chains, nodes)
     places = poses.pop("places")
     source, target = np.searchsorted(nodes, edges.source), np.searchsorted(nodes, edges.target)
     there = places[target].copy()
     jumps = np.flatnonzero(~edges.natural)
-    for some in _portions(jumps):
-        # an edge leads to the frame after the one that its source is like
-        similar = chains.row_of_node[edges.target[some]] - 1
-        first = row_windows(chains, chains.row_of_node[edges.source[some]])
-        there[some] = moved(there[some], align_windows(first, row_windows(chains, similar), joint_weights))
+    # an edge leads to the frame after the one that its source is like
+    here, similar = chains.row_of_node[edges.source[jumps]], chains.row_of_node[edges.target[jumps]] - 1
+    there[jumps] = moved(there[jumps], (metric or uniform_rows(chains)).align(here, similar))
     sources: dict[str, Any] = {name: getattr(chains, name)[nodes] for name in _SOURCES}
     return MotionGraph(
         skeleton=chains.skeleton,
@@ -73,8 +70,3 @@ def _poses(clips: Sequence[Clip], chains: Chains, nodes: NDArray) -> dict[str, A
     row = chains.row_of_node[nodes] + ahead[np.searchsorted(which, chains.chain_of_node[nodes])]
     whole = planar_poses(chains.skeleton, *poses_of(clips, chains, which), lengths)
     return {name: values[row] for name, values in whole.items()}
-
-
-def _portions(numbers: NDArray) -> Iterator[NDArray]:
-    for start in range(0, len(numbers), _PAIRS_AT_ONCE):
-        yield numbers[start : start + _PAIRS_AT_ONCE]
