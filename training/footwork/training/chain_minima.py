@@ -14,6 +14,8 @@ from footwork.training.windows import frame_products
 # motion that comes twice has the transitions that exact numbers would give it.
 _NOTHING = 1e-10
 STRETCH = 60  # rows of a chain that are dealt with together: with one before and one after, bits of an integer
+# Stretches that go through the rows near them side by side: they meet the same rows, whose windows are then at hand.
+TOGETHER = 16
 
 
 class Rows(NamedTuple):
@@ -58,23 +60,39 @@ def minima_of_rows(
         counts: panels of balls and of rows compared with a row, pairs near by their sketches, products of frames.
     """
     size = len(rows.node)
-    masks, touched = np.zeros(size, np.int64), np.zeros(size // BLOCK + 1, np.bool_)
+    masks, touched = np.zeros((TOGETHER, size), np.int64), np.zeros((TOGETHER, size // BLOCK + 1), np.bool_)
     front = np.empty((2, 2, max(len(everyone.panels), len(awake.panels))), np.int64)
-    band = _Band(np.zeros(3, np.int64), np.empty((3, STRETCH + 2)), np.empty((3, STRETCH + 2, len(rows.weights), 3)))
+    stretches, latest = np.empty((TOGETHER, 3), np.intp), np.empty(TOGETHER, np.intp)
+    near = np.zeros((TOGETHER, 3), np.int64)
+    cost = np.empty((TOGETHER, 3, STRETCH + 2))
+    products = np.empty((TOGETHER, 3, STRETCH + 2, len(rows.weights), 3))
     counts = np.zeros(4, np.intp)
     pairs, costs, total = np.empty((1024, 2), np.int32), np.empty(1024), 0
     while begin < end:
-        stop = min(begin + STRETCH, rows.last[begin] + 1)
-        low, high = max(begin - 1, rows.first[begin]), min(stop, rows.last[begin])
-        sleepers, wakers = _bits(low, high, rows.awake)
-        near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, masks, touched, counts)
-        near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, masks, touched, counts)
-        begun = total
-        pairs, costs, total = _sweep(
-            low, begin, stop, rows, masks, touched, band, threshold, pairs, costs, total, counts
-        )
+        begun, count = total, 0
+        while begin < end and count < TOGETHER:
+            stop = min(begin + STRETCH, rows.last[begin] + 1)
+            low, high = max(begin - 1, rows.first[begin]), min(stop, rows.last[begin])
+            stretches[count] = low, begin, stop
+            sleepers, wakers = _bits(low, high, rows.awake)
+            mask, mark = masks[count], touched[count]
+            near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, mask, mark, counts)
+            near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, mask, mark, counts)
+            begin, count = stop, count + 1
+        near[:] = 0
+        latest[:] = -2
+        for block in range(touched.shape[1]):
+            for n in range(count):
+                if touched[n, block]:
+                    touched[n, block] = False
+                    band = _Band(near[n], cost[n], products[n])
+                    latest[n], pairs, costs, total = _sweep(
+                        block, latest[n], stretches[n], rows, masks[n], band, threshold, pairs, costs, total, counts
+                    )
+        for n in range(count):
+            band = _Band(near[n], cost[n], products[n])
+            pairs, costs, total = _decide(stretches[n], latest[n], rows, band, threshold, pairs, costs, total)
         _sort(pairs[begun:total], costs[begun:total])
-        begin = stop
     return pairs[:total].copy(), costs[:total].copy(), counts
 
 
@@ -96,41 +114,37 @@ def _sort(pairs: NDArray, costs: NDArray) -> None:
 
 @numba.njit(cache=True, nogil=True)
 def _sweep(
-    low: int,
-    begin: int,
-    stop: int,
+    block: int,
+    latest: int,
+    stretch: NDArray,
     rows: Rows,
     masks: NDArray,
-    touched: NDArray,
     band: _Band,
     threshold: float,
     pairs: NDArray,
     costs: NDArray,
     total: int,
     counts: NDArray,
-) -> tuple[NDArray, NDArray, int]:
-    """Go through the rows near a stretch in ascending order, which meets each place in memory once, and clear them."""
-    band.mask[:] = 0
-    latest = -2
-    for block in range(len(touched)):
-        if not touched[block]:
+) -> tuple[int, NDArray, NDArray, int]:
+    """Go through the rows of a block that are near to a stretch, in ascending order, and clear them.
+
+    Appends the minima with rows before the last one near, which is returned and comes back as ``latest``.
+    """
+    low = stretch[0]
+    for other in range(block * BLOCK, min((block + 1) * BLOCK, len(masks))):
+        near = _apart(low, other, masks[other], rows)
+        masks[other] = 0
+        if near == 0:
             continue
-        touched[block] = False
-        for other in range(block * BLOCK, min((block + 1) * BLOCK, len(masks))):
-            near = _apart(low, other, masks[other], rows)
-            masks[other] = 0
-            if near == 0:
-                continue
-            if other != latest + 1 or other == rows.first[other]:
-                band.mask[(latest + 1) % 3] = 0
-                pairs, costs, total = _decide(low, begin, stop, latest, rows, band, threshold, pairs, costs, total)
-                band.mask[:] = 0
-            _evaluate(low, other, near, rows, band, counts)
-            if band.mask[(other + 2) % 3]:
-                pairs, costs, total = _decide(low, begin, stop, other - 1, rows, band, threshold, pairs, costs, total)
-            latest = other
-            band.mask[(other + 1) % 3] = 0
-    return _decide(low, begin, stop, latest, rows, band, threshold, pairs, costs, total)
+        if other != latest + 1 or other == rows.first[other]:
+            pairs, costs, total = _decide(stretch, latest, rows, band, threshold, pairs, costs, total)
+            band.mask[:] = 0
+        _evaluate(low, other, near, rows, band, counts)
+        if band.mask[(other + 2) % 3]:
+            pairs, costs, total = _decide(stretch, other - 1, rows, band, threshold, pairs, costs, total)
+        latest = other
+        band.mask[(other + 1) % 3] = 0
+    return latest, pairs, costs, total
 
 
 @numba.njit(cache=True, nogil=True)
@@ -184,9 +198,7 @@ def _cost(products: NDArray, rows: Rows, i: int, j: int) -> float:
 
 @numba.njit(cache=True, nogil=True)
 def _decide(
-    low: int,
-    begin: int,
-    stop: int,
+    stretch: NDArray,
     other: int,
     rows: Rows,
     band: _Band,
@@ -195,7 +207,8 @@ def _decide(
     costs: NDArray,
     total: int,
 ) -> tuple[NDArray, NDArray, int]:
-    """Append the minima of the stretch begin..stop - 1 with a row whose next row has been evaluated too."""
+    """Append the minima of a stretch with a row whose next row has been evaluated too."""
+    low, begin, stop = stretch
     slot = other % 3
     for row in range(begin, stop):
         bit = row - low

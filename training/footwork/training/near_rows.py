@@ -28,8 +28,9 @@ class Forest(NamedTuple):
 
 def forest_of(tree: BallTree, threshold: float) -> Forest:
     """A tree made ready for a threshold."""
-    reach = (np.sqrt(threshold) + tree.radius.astype(np.float64)) ** 2
-    limit = np.where(tree.radius < 0.0, -np.inf, np.nextafter(reach.astype(np.float32), np.float32(np.inf)))
+    # a little more than in double precision, so that rounding to single precision leaves nobody out
+    reach = (np.sqrt(threshold) + tree.radius.astype(np.float64)) ** 2 * (1.0 + 1e-6)
+    limit = np.where(tree.radius < 0.0, -np.inf, np.minimum(reach, np.finfo(np.float32).max))
     shrunk = tree.energy * np.float32(1.0 - SLACK)
     return Forest(tree.panels, shrunk, limit.astype(np.float32), tree.highest, tree.level)
 

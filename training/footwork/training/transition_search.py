@@ -18,6 +18,7 @@ from footwork.training.ball_tree import tree_of
 from footwork.training.chain_minima import Rows, minima_of_rows
 from footwork.training.chains import Chains
 from footwork.training.near_rows import Forest, forest_of
+from footwork.training.pair_estimate import estimated_pairs, require_room_for_pairs
 from footwork.training.sketches import GROUND, HEIGHT, Sketches, sketches_of
 from footwork.training.transitions import Minima
 from footwork.training.window_basis import shares_of
@@ -49,12 +50,17 @@ def search(
         progress: told the share that is done.
 
     Raises:
-        InputError: for a threshold that is not above 0, or weights that cannot be scaled.
+        InputError: for a threshold that is not above 0, weights that cannot be scaled, or more transitions than
+            memory has room for, by an estimate.
     """
     rows, sketches = prepared(chains, threshold, joint_weights, active)
     everyone = forest_of(tree_of(sketches, np.arange(len(rows.node))), threshold)
     awake = everyone if active is None else forest_of(tree_of(sketches, np.flatnonzero(rows.awake)), threshold)
-    parts = run_tasks(_found, (rows, everyone, awake, threshold), _tasks(rows), progress)
+    shared = (rows, everyone, awake, threshold)
+    starts = np.flatnonzero(np.arange(len(rows.first)) == rows.first)
+    estimate = estimated_pairs(lambda begin, end: len(_found((begin, end), *shared)[0]), starts, len(rows.first))
+    require_room_for_pairs(estimate)
+    parts = run_tasks(_found, shared, _tasks(starts, len(rows.first)), progress)
     pairs = np.concatenate([part[0] for part in parts])
     return Minima(pairs[:, 0].astype(np.intp), pairs[:, 1].astype(np.intp), np.concatenate([part[1] for part in parts]))
 
@@ -112,13 +118,12 @@ def _scaled(weights: ArrayLike | None, joints: int) -> NDArray[np.float64]:
     return weights / weights.sum()
 
 
-def _tasks(rows: Rows) -> list[tuple[int, int]]:
+def _tasks(starts: NDArray[np.intp], rows: int) -> list[tuple[int, int]]:
     """First row and the row past the last of stretches of whole chains, about equally many rows each."""
-    starts = np.flatnonzero(np.arange(len(rows.first)) == rows.first)
-    count = max(min(TASKS, len(rows.first) // _FEWEST), 1)
-    aims = np.linspace(0, len(rows.first), count + 1)[:-1]
+    count = max(min(TASKS, rows // _FEWEST), 1)
+    aims = np.linspace(0, rows, count + 1)[:-1]
     cuts = np.unique(starts[np.minimum(np.searchsorted(starts, aims), len(starts) - 1)])
-    return list(zip(cuts.tolist(), [*cuts[1:].tolist(), len(rows.first)], strict=True))
+    return list(zip(cuts.tolist(), [*cuts[1:].tolist(), rows], strict=True))
 
 
 def _found(
