@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,14 @@ from footwork.errors import InputError
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
 from footwork.motion.metric import PointCloudMetric
+from footwork.motion.metrics import NAMES
+from footwork.motion.pair_weights import PairWeights
 from footwork.motion.task import SteeringTask
 from footwork.training import transition_search
 from footwork.training.chains import CONTEXT, Chains, chains_of_clips
 from footwork.training.dataset import load_clips
 from footwork.training.interpolation import interpolated
+from footwork.training.row_metric import RowMetric, row_metric
 from footwork.training.transition_search import search
 from footwork.training.transitions import local_minima
 from motion_samples import sample_clip
@@ -56,10 +60,34 @@ def assert_same(found, expected):
 @given(st.integers(0, 10_000), st.integers(1, 4), st.integers(0, 12), st.sampled_from([0.05, 0.5, 4.0, np.inf]))
 def test_transitions_are_those_of_comparing_every_pair(seed, clips, others, threshold):
     chains = wandering_chains(seed, clips, others)
-    weights = np.random.default_rng(seed).random(3)
+    metric = RowMetric(chains, chains.places, np.random.default_rng(seed).random(3))
     assert_same(search(chains, threshold), transitions_by_brute_force(chains, threshold))
-    weighted = search(chains, threshold, joint_weights=weights)
-    assert_same(weighted, transitions_by_brute_force(chains, threshold, weights))
+    weighted = search(chains, threshold, metric=metric)
+    assert_same(weighted, transitions_by_brute_force(chains, threshold, metric))
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000), st.integers(1, 4), st.integers(0, 12), st.sampled_from([0.05, 0.5, 4.0, np.inf]))
+def test_weights_of_each_pair_give_what_comparing_every_pair_gives(seed, clips, others, threshold):
+    rng, chains = np.random.default_rng(seed), wandering_chains(seed, clips, others)
+    chains = replace(
+        chains, contacts=np.repeat(rng.random((chains.node_count // 5 + 1, 2)) < 0.5, 5, 0)[: chains.node_count]
+    )
+    pair = PairWeights(rng.dirichlet(np.ones(3)), 2.0 * rng.random((2, 3)))
+    metric = RowMetric(chains, chains.places, pair.mass, pair)
+    found = search(chains, threshold, metric=metric)
+    assert_same(found, transitions_by_brute_force(chains, threshold, metric))
+
+
+@needs_motions
+@pytest.mark.parametrize("name", NAMES)
+def test_every_metric_finds_on_capture_what_comparing_every_pair_finds(name):
+    clips = [clip.cut(0, min(clip.frame_count, 60)) for clip in capture("dataset2", 3)]
+    chains = interpolated(clips, BEHAVIOURS, weights=2)[0]
+    metric = row_metric(name, chains)
+    expected = transitions_by_brute_force(chains, 0.4, metric)
+    assert len(expected.i) > 20
+    assert_same(search(chains, 0.4, metric=metric), expected)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.02, 0.3])
@@ -149,4 +177,4 @@ def test_a_threshold_that_is_none_is_refused(threshold):
 @pytest.mark.parametrize("weights", [[0.0, 0.0, 0.0], [1.0, -1.0, 1.0], [1.0, np.nan, 1.0], [1.0, 1.0]])
 def test_weights_that_cannot_be_scaled_are_refused(weights):
     with pytest.raises(InputError, match="weights"):
-        search(wandering_chains(1, 1, 1), 0.2, joint_weights=weights)
+        RowMetric(chains := wandering_chains(1, 1, 1), chains.places, np.array(weights))

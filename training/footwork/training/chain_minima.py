@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.training.near_rows import BLOCK, Forest, near_masks
+from footwork.training.pair_windows import PRODUCTS, Standing, pair_cost, pair_products
 from footwork.training.transitions import MIN_GAP
 from footwork.training.windows import frame_products
 
@@ -30,6 +31,7 @@ class Rows(NamedTuple):
     mean: NDArray[np.float64]
     energy: NDArray[np.float64]
     weights: NDArray[np.float64]
+    standing: Standing
     node: NDArray[np.intp]
     first: NDArray[np.intp]
     last: NDArray[np.intp]
@@ -45,7 +47,7 @@ class _Band(NamedTuple):
 
     mask: NDArray[np.int64]  # (3,) bits of the rows near to it
     cost: NDArray[np.float64]  # (3, STRETCH + 2) s of these
-    products: NDArray[np.float64]  # (3, STRETCH + 2, LENGTH, 3) of the windows' frames
+    products: NDArray[np.float64]  # (3, STRETCH + 2, LENGTH, 3 or PRODUCTS) of the windows' frames
 
 
 @numba.njit(cache=True, nogil=True)
@@ -65,7 +67,8 @@ def minima_of_rows(
     stretches, latest = np.empty((TOGETHER, 3), np.intp), np.empty(TOGETHER, np.intp)
     near = np.zeros((TOGETHER, 3), np.int64)
     cost = np.empty((TOGETHER, 3, STRETCH + 2))
-    products = np.empty((TOGETHER, 3, STRETCH + 2, len(rows.weights), 3))
+    kinds = PRODUCTS if rows.standing.times.size else 3
+    products = np.empty((TOGETHER, 3, STRETCH + 2, len(rows.weights), kinds))
     counts = np.zeros(4, np.intp)
     pairs, costs, total = np.empty((1024, 2), np.int32), np.empty(1024), 0
     while begin < end:
@@ -172,18 +175,26 @@ def _evaluate(low: int, other: int, near: int, rows: Rows, band: _Band, counts: 
                 begun = length - 1
                 own[:begun] = band.products[before, bit - 1, 1:]
             for k in range(begun, length):
-                own[k, 0], own[k, 1], own[k, 2] = frame_products(
-                    rows.frames, rows.start[row] + k, rows.start[other] + k
-                )
-            band.cost[slot, bit] = _cost(own, rows, row, other)
+                _multiply(rows.start[row] + k, rows.start[other] + k, rows, own[k])
+            cost = _cost(own, rows, row, other) if own.shape[1] == 3 else pair_cost(own, rows.weights)
+            band.cost[slot, bit] = cost if cost > _NOTHING else 0.0
             counts[2] += 1
             counts[3] += length - begun
         bit += 1
 
 
 @numba.njit(cache=True, nogil=True)
+def _multiply(a: int, b: int, rows: Rows, products: NDArray) -> None:
+    """Products of two frames, under the weights of what stands at them where weights depend on that."""
+    if len(products) == 3:
+        products[0], products[1], products[2] = frame_products(rows.frames, a, b)
+    else:
+        pair_products(rows.frames, rows.standing, a, b, products)
+
+
+@numba.njit(cache=True, nogil=True)
 def _cost(products: NDArray, rows: Rows, i: int, j: int) -> float:
-    """s in closed form from the products of two windows' frames (conventions.md 1)."""
+    """s under fixed weights, in closed form from the products of two windows' frames (conventions.md 1)."""
     cosine, sine, height = 0.0, 0.0, 0.0
     for k in range(len(rows.weights)):
         cosine += rows.weights[k] * products[k, 0]
@@ -192,8 +203,7 @@ def _cost(products: NDArray, rows: Rows, i: int, j: int) -> float:
     cosine -= rows.mean[i, 0] * rows.mean[j, 0] + rows.mean[i, 1] * rows.mean[j, 1]
     sine -= rows.mean[i, 0] * rows.mean[j, 1] - rows.mean[i, 1] * rows.mean[j, 0]
     ground = rows.energy[i, 0] + rows.energy[j, 0] - 2.0 * np.sqrt(cosine * cosine + sine * sine)
-    cost = ground + (rows.energy[i, 1] + rows.energy[j, 1] - 2.0 * height)
-    return cost if cost > _NOTHING else 0.0
+    return ground + (rows.energy[i, 1] + rows.energy[j, 1] - 2.0 * height)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -2,23 +2,23 @@
 
 The result is that of comparing all pairs, edge for edge; most pairs are never compared. A tree of balls over short
 sketches of the windows, whose distances are never above the root of s, leaves the pairs that may be under the threshold
-(``ball_tree``, ``near_rows``); these are evaluated in full (``chain_minima``). A metric whose weights depend on the
-pair fits in where ``chain_minima`` evaluates, with sketches of a metric of fixed weights that is never above it.
+(``ball_tree``, ``near_rows``); these are evaluated in full (``chain_minima``). Where weights depend on the pair,
+sketches are of the part of them that is the same for all pairs, under which s is never more (``pair_windows``).
 """
 
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from footwork.errors import InputError
-from footwork.motion.arrays import require_finite, require_shape
 from footwork.training.backend import run_tasks
 from footwork.training.ball_tree import tree_of
 from footwork.training.chain_minima import Rows, minima_of_rows
 from footwork.training.chains import Chains
 from footwork.training.near_rows import Forest, forest_of
 from footwork.training.pair_estimate import estimated_pairs, require_room_for_pairs
+from footwork.training.row_metric import RowMetric, uniform_rows
 from footwork.training.sketches import GROUND, HEIGHT, Sketches, sketches_of
 from footwork.training.transitions import Minima
 from footwork.training.window_basis import shares_of
@@ -32,7 +32,7 @@ def search(
     chains: Chains,
     threshold: float,
     *,
-    joint_weights: ArrayLike | None = None,
+    metric: RowMetric | None = None,
     active: NDArray[np.bool_] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Minima:
@@ -45,15 +45,15 @@ def search(
     Args:
         chains: the nodes.
         threshold: of s, above 0.
-        joint_weights: of the metric, scaled to sum 1; equal where not given.  # (J,)
+        metric: of these chains, the uniform one where not given.
         active: only pairs with at least one of these nodes; all where not given.  # (N,)
         progress: told the share that is done.
 
     Raises:
-        InputError: for a threshold that is not above 0, weights that cannot be scaled, or more transitions than
-            memory has room for, by an estimate.
+        InputError: for a threshold that is not above 0, or more transitions than memory has room for, by an
+            estimate.
     """
-    rows, sketches = prepared(chains, threshold, joint_weights, active)
+    rows, sketches = prepared(metric or uniform_rows(chains), threshold, active)
     everyone = forest_of(tree_of(sketches, np.arange(len(rows.node))), threshold)
     awake = everyone if active is None else forest_of(tree_of(sketches, np.flatnonzero(rows.awake)), threshold)
     shared = (rows, everyone, awake, threshold)
@@ -65,9 +65,7 @@ def search(
     return Minima(pairs[:, 0].astype(np.intp), pairs[:, 1].astype(np.intp), np.concatenate([part[1] for part in parts]))
 
 
-def prepared(
-    chains: Chains, threshold: float, joint_weights: ArrayLike | None, active: NDArray[np.bool_] | None
-) -> tuple[Rows, Sketches]:
+def prepared(metric: RowMetric, threshold: float, active: NDArray[np.bool_] | None) -> tuple[Rows, Sketches]:
     """What a search needs of each row, and the sketches that trees are made of.
 
     Raises:
@@ -75,7 +73,7 @@ def prepared(
     """
     if not threshold > 0.0:
         raise InputError(f"{threshold} is no threshold, expected a number above 0", "threshold")
-    windows = windows_of(chains, _scaled(joint_weights, chains.places.shape[1]))
+    chains, windows = metric.chains, windows_of(metric)
     sketches = sketches_of(shares_of(windows, GROUND, HEIGHT))
     wanted = np.ones(chains.node_count, dtype=bool) if active is None else np.asarray(active, dtype=bool)
     active_rows = (windows.node >= 0) & wanted[windows.node]
@@ -87,6 +85,7 @@ def prepared(
         mean=windows.mean,
         energy=windows.energy,
         weights=windows.weights,
+        standing=windows.standing,
         node=windows.node,
         first=windows.first,
         last=windows.last,
@@ -107,15 +106,6 @@ def _awake(active: NDArray[np.bool_], windows: Windows) -> NDArray[np.bool_]:
     awake[np.maximum(at - 1, windows.first[at])] = True
     awake[0] |= not awake.any()
     return awake
-
-
-def _scaled(weights: ArrayLike | None, joints: int) -> NDArray[np.float64]:
-    weights = np.ones(joints) if weights is None else np.asarray(weights, dtype=np.float64)
-    require_shape(weights, (joints,), "joint weights", "metric")
-    require_finite(weights, "joint weights", "metric")
-    if not ((weights >= 0).all() and weights.sum() > 0):
-        raise InputError("joint weights must be zero or more, not all zero", "metric")
-    return weights / weights.sum()
 
 
 def _tasks(starts: NDArray[np.intp], rows: int) -> list[tuple[int, int]]:

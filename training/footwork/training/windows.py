@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from footwork.motion.metric import UNIT
 from footwork.motion.window import LENGTH, RADIUS, window_weights
-from footwork.training.chains import Chains
+from footwork.training.pair_windows import Standing, fixed_standing, standing_of
+from footwork.training.row_metric import RowMetric, contacts_of_rows
 
 LANES = 8  # points are laid out in multiples of this, so that a processor adds up eight at a time
 _FRINGE = -1
@@ -32,6 +33,7 @@ class Windows:
         last: last row of each row's chain.  # (R,)
         weights: of a window's frames, sum 1.  # (LENGTH,)
         root_weights: square roots of the points' weights, filled up with zeros.  # (P,)
+        standing: what stands at each frame, for a metric whose weights depend on it.
     """
 
     frames: NDArray[np.float64]
@@ -43,6 +45,7 @@ class Windows:
     last: NDArray[np.intp]
     weights: NDArray[np.float64]
     root_weights: NDArray[np.float64]
+    standing: Standing
 
     @property
     def row_count(self) -> int:
@@ -50,44 +53,48 @@ class Windows:
         return len(self.start)
 
 
-def windows_of(chains: Chains, joint_weights: NDArray[np.float64]) -> Windows:
-    """The windows of the rows of chains under fixed weights of the joints, which sum to 1.  # (J,)"""
+def windows_of(metric: RowMetric) -> Windows:
+    """The windows of the rows of a metric's chains, under the weights that are the same for all pairs."""
+    chains = metric.chains
     fringe = np.minimum(chains.context, 1)
     length = chains.length + 2 * fringe
     first = np.cumsum(length) - length
     into = np.arange(length.sum()) - np.repeat(first, length)
     around = np.maximum(RADIUS + fringe - chains.context, 0)  # ends repeated on either side
-    frames, first_frame = _frames(chains, around, np.sqrt(joint_weights) / UNIT)
+    frames, first_frame, row_of_frame = _frames(metric, around)
     start = into + np.repeat(first_frame + around + chains.context - fringe - RADIUS, length)
     weights = window_weights()
     root_weights = np.zeros(frames.shape[2])
-    root_weights[: len(joint_weights)] = np.sqrt(joint_weights)
+    root_weights[: len(metric.weights)] = np.sqrt(metric.weights)
+    standing = fixed_standing()
+    if metric.pair is not None:
+        standing = standing_of(contacts_of_rows(chains, row_of_frame), metric.pair, root_weights)
     mean, energy = _moments(frames, start, root_weights, weights)
     end = np.repeat(first + length - 1, length)
     first = np.repeat(first, length)
     rows = np.arange(len(first))
     inner = (rows - first >= np.repeat(fringe, length)) & (end - rows >= np.repeat(fringe, length))
     node = np.where(inner, np.cumsum(inner) - 1, _FRINGE)
-    return Windows(frames, start, mean, energy, node, first, end, weights, root_weights)
+    return Windows(frames, start, mean, energy, node, first, end, weights, root_weights, standing)
 
 
-def _frames(chains: Chains, around: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """Scaled places of all frames (F, 3, P), and the first frame of each chain (C,)."""
+def _frames(metric: RowMetric, around: NDArray) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.intp]]:
+    """Scaled places of all frames (F, 3, P), the first frame of each chain (C,), and the row of each frame (F,)."""
+    chains, points, scale = metric.chains, metric.points, np.sqrt(metric.weights) / UNIT
     rows = chains.length + 2 * chains.context
     count = rows + 2 * around
     begin = np.cumsum(count) - count
     into = np.arange(count.sum()) - np.repeat(begin + around, count)
     source = np.repeat(chains.first_row, count) + np.clip(into, 0, np.repeat(rows - 1, count))
-    points = chains.places.shape[1]
-    frames = np.zeros((len(source), 3, -(-points // LANES) * LANES))
-    centre = np.add.reduceat(chains.places.mean(axis=1), chains.first_row) / rows[:, None]
-    centre[:, 1] = chains.places[..., 1].mean()
+    frames = np.zeros((len(source), 3, -(-points.shape[1] // LANES) * LANES))
+    centre = np.add.reduceat(points.mean(axis=1), chains.first_row) / rows[:, None]
+    centre[:, 1] = points[..., 1].mean()
     for begun in range(0, len(source), 1 << 14):
         span = slice(begun, begun + (1 << 14))
         chain = np.searchsorted(begin, np.arange(begun, min(begun + (1 << 14), len(source))), side="right") - 1
-        places = (chains.places[source[span]] - centre[chain][:, None]) * scale[:, None]
-        frames[span, :, :points] = places.transpose(0, 2, 1)
-    return frames, begin
+        places = (points[source[span]] - centre[chain][:, None]) * scale[:, None]
+        frames[span, :, : points.shape[1]] = places.transpose(0, 2, 1)
+    return frames, begin, source
 
 
 def _moments(
