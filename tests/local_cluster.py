@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,9 +36,7 @@ class LocalCluster:
     def start(self, what: str, *options: object, path: Path = HERE) -> None:
         command = [sys.executable, "-m", f"distributed.cli.dask_{what}", "--host", "127.0.0.1", "--no-dashboard"]
         log = (self.folder / f"{what}{len(self.processes)}.log").open("wb")
-        process = subprocess.Popen(
-            [*command, *map(str, options)], env=os.environ | {"PYTHONPATH": str(path)}, stdout=log, stderr=log
-        )
+        process = subprocess.Popen([*command, *map(str, options)], env=environment(path), stdout=log, stderr=log)
         self.processes.append(process)
 
     def end(self) -> None:
@@ -47,13 +46,18 @@ class LocalCluster:
             process.wait()
 
 
+def environment(path: Path = HERE) -> dict[str, str]:
+    """Of a process that finds modules in a folder first."""
+    return os.environ | {"PYTHONPATH": os.pathsep.join([str(path), os.environ.get("PYTHONPATH", "")])}
+
+
 @contextmanager
-def local_cluster(folder: Path, workers: int = 2) -> Iterator[LocalCluster]:
+def local_cluster(folder: Path, workers: int = 2, path: Path = HERE) -> Iterator[LocalCluster]:
     """A scheduler and workers on free ports, ended in any case; an orphaned scheduler ends by itself."""
     cluster = LocalCluster(folder)
     try:
         file = folder / "scheduler.json"
-        cluster.start("scheduler", "--port", 0, "--scheduler-file", file, "--idle-timeout", 300)
+        cluster.start("scheduler", "--port", 0, "--scheduler-file", file, "--idle-timeout", 300, path=path)
         for _ in range(workers):
             cluster.start_worker()
         await_file(file)
@@ -85,6 +89,18 @@ def announced(task: tuple[str, int], array: np.ndarray) -> np.ndarray:
     path.with_suffix(".new").replace(path)
     time.sleep(0.1)
     return array[number::16] + number
+
+
+class Grid(NamedTuple):
+    """Arrays of many kinds that tasks share."""
+
+    small: np.ndarray
+    large: np.ndarray
+
+
+def flags(task: int, grid: Grid, array: np.ndarray) -> list[tuple[bool, bool]]:
+    """A task: whether each shared array is aligned and may be written to."""
+    return [(bool(each.flags.aligned), bool(each.flags.writeable)) for each in (*grid, array)]
 
 
 def refusing(task: int) -> int:

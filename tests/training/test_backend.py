@@ -14,7 +14,18 @@ import pytest
 
 from footwork.errors import InputError
 from footwork.training.backend import backend, run_tasks
-from local_cluster import HERE, LocalCluster, announced, await_file, deadly, local_cluster, refusing, scaled
+from local_cluster import (
+    Grid,
+    LocalCluster,
+    announced,
+    await_file,
+    deadly,
+    environment,
+    flags,
+    local_cluster,
+    refusing,
+    scaled,
+)
 
 needs_dask = pytest.mark.skipif(
     subprocess.run([sys.executable, "-c", "import distributed"], capture_output=True, check=False).returncode != 0,
@@ -74,6 +85,16 @@ def test_a_cluster_gives_the_very_results_of_this_process(cluster):
     assert len(shares) == 7
     assert shares[-1] == 1.0
     assert [pid for _, pid in run_tasks(scaled, (array, factor), range(7))] == [os.getpid()] * 7
+
+
+@needs_dask
+def test_shared_arrays_arrive_as_compiled_code_knows_them(cluster):
+    """Aligned, and writable or not as they were: Numba compiles anew for every other kind."""
+    frozen = np.arange(300_001.0)
+    frozen.flags.writeable = False
+    shared = (Grid(np.arange(7, dtype=np.int8), frozen), np.arange(500_003.0)[1:])
+    with backend("dask", scheduler=cluster.address):
+        assert run_tasks(flags, shared, [0]) == [flags(0, *shared)] == [[(True, True), (True, False), (True, True)]]
 
 
 @needs_dask
@@ -158,13 +179,17 @@ def test_a_task_that_takes_every_worker_down_is_one_error(tmp_path):
 
 
 @needs_dask
-def test_a_worker_without_footwork_is_named(tmp_path):
+def test_a_scheduler_or_a_worker_without_footwork_is_named(tmp_path):
     shadow = tmp_path / "shadow"
     (shadow / "footwork").mkdir(parents=True)
     (shadow / "footwork" / "__init__.py").touch()  # hides the real one
-    with local_cluster(tmp_path, workers=0) as own:
+    message = r"tcp://127.*: the {} cannot load footwork.*pip install 'footwork\[scale\]'"
+    with local_cluster(tmp_path, workers=1, path=shadow) as own:
+        with pytest.raises(InputError, match=message.format("scheduler")):
+            in_the_cluster(own.address, refusing, (), [0])
         own.start_worker(shadow)
-        with pytest.raises(InputError, match=r"the worker cannot load footwork.*pip install 'footwork\[scale\]'"):
+        await_file(tmp_path / "worker2.log", b"Registered to")
+        with pytest.raises(InputError, match=message.format("worker")):
             in_the_cluster(own.address, refusing, (), [0])
 
 
@@ -249,8 +274,7 @@ def test_nothing_of_dask_is_loaded_in_process():
         "import sys; from local_cluster import refusing; from footwork.training.backend import run_tasks;"
         "run_tasks(refusing, (), [0, 1]); sys.exit(bool({'dask', 'distributed'} & set(sys.modules)))"
     )
-    environment = os.environ | {"PYTHONPATH": str(HERE)}
-    assert subprocess.run([sys.executable, "-c", code], env=environment, check=False).returncode == 0
+    assert subprocess.run([sys.executable, "-c", code], env=environment(), check=False).returncode == 0
 
 
 @needs_dask
@@ -262,7 +286,7 @@ def test_an_interrupt_takes_back_what_the_cluster_has_not_begun(cluster, tmp_pat
         "    run_tasks(announced, (numpy.zeros(64),), [(folder, number) for number in range(400)])"
     )
     command = [sys.executable, "-c", code, str(tmp_path), cluster.address]
-    with subprocess.Popen(command, env=os.environ | {"PYTHONPATH": str(HERE)}, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen(command, env=environment(), stderr=subprocess.PIPE) as process:
         await_file(tmp_path / "1")
         process.send_signal(signal.SIGINT)
         said = process.communicate(timeout=30)[1].decode()

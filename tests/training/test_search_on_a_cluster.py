@@ -29,6 +29,7 @@ def kill_a_worker(cluster: LocalCluster) -> None:
     cluster.processes[1].wait()
 
 
+@pytest.mark.timeout(400)  # kernels may have to be compiled first
 def test_the_transitions_are_the_same_though_a_worker_is_killed(chains, tmp_path):
     here = search(chains, THRESHOLD)
     shares: list[float] = []

@@ -12,7 +12,7 @@ from footwork.errors import InputError
 from footwork.training import dask_client
 from footwork.training.backend import DataLostError
 from footwork.training.dask_backend import DaskBackend
-from footwork.training.dask_worker import call_there, require_alike
+from footwork.training.dask_worker import Aligned, call_there, require_alike
 from footwork.training.fingerprint import fingerprint
 
 WORKERS = 15.0  # seconds in which workers have to appear, at first and after the last one went
@@ -106,7 +106,8 @@ class Cluster:
         except (CancelledError, OSError) as error:
             raise self._trouble or DataLostError() from error
         except Exception as error:
-            problem = f"the workers cannot go on ({type(error).__name__}: {error}), expected footwork and memory there"
+            said = " ".join(f"{type(error).__name__}: {error}".split())
+            problem = f"the workers cannot go on ({said}), expected footwork and memory there"
             raise InputError(problem, self._address) from error
 
     async def _watch(self) -> None:
@@ -139,14 +140,16 @@ class Cluster:
         await self._some_workers()
         try:
             found = await asyncio.wait_for(self._client.run(fingerprint, on_error="return"), LOADING)
+            _require_alike_workers(found)
+            await asyncio.wait_for(self._client.run_on_scheduler(fingerprint), LOADING)
         except TimeoutError:
             raise InputError(f"workers load nothing within {LOADING:g} s, expected them to", self._address) from None
-        for worker, answer in found.items():
-            if not isinstance(answer, OSError):  # a worker that has gone meanwhile
-                require_alike(worker, answer)
+        except ImportError as error:  # it reads the tasks, too
+            problem = f"the scheduler cannot load footwork ({error}), expected it there: pip install 'footwork[scale]'"
+            raise InputError(problem, self._address) from None
 
     async def _scattered(self, arrays: Sequence[Any]) -> list[Any]:
-        once = {id(array): array for array in arrays}
+        once = {id(array): Aligned(array) for array in arrays}
         if not once:
             return []
         sent = await self._client.scatter(list(once.values()), broadcast=True, hash=False)
@@ -160,3 +163,9 @@ class Cluster:
             return await remote
         finally:
             remote.release()
+
+
+def _require_alike_workers(found: dict[str, Any]) -> None:
+    for worker, answer in found.items():
+        if not isinstance(answer, OSError):  # a worker that has gone meanwhile
+            require_alike(worker, answer)

@@ -1,8 +1,11 @@
 """What runs on a worker of a Dask cluster, and whether what it says can be trusted to be what we would compute."""
 
+import pickle
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from footwork.errors import InputError
 from footwork.training.fingerprint import fingerprint
@@ -25,13 +28,41 @@ class Returned:
     versions: dict[str, str]
 
 
+@dataclass(frozen=True)
+class Aligned:
+    """What tasks share, an array or a named tuple of arrays, as it has to travel.
+
+    Dask leaves arrays where they lie in a message, often at odd addresses, for which compiled code is compiled anew.
+    These arrive at even ones, writable or not as they were.
+    """
+
+    value: Any
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        frozen = [isinstance(field, np.ndarray) and not field.flags.writeable for field in _fields(self.value)]
+        return _arrived, (pickle.dumps(self.value, protocol=4), frozen)  # later ones let Dask lay the arrays
+
+
+def _arrived(pickled: bytes, frozen: list[bool]) -> Aligned:
+    value = pickle.loads(pickled)  # noqa: S301  # part of what Dask unpickles anyway
+    for field, read_only in zip(_fields(value), frozen, strict=True):
+        if read_only:
+            field.flags.writeable = False
+    return Aligned(value)
+
+
+def _fields(value: Any) -> tuple[Any, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
 def call_there(call: Callable[..., Any], *arguments: Any) -> Returned:
     """Run a call on the worker that this is."""
     from distributed import get_worker
 
     worker = get_worker().address
+    whole = [argument.value if isinstance(argument, Aligned) else argument for argument in arguments]
     try:
-        return Returned(call(*arguments), None, worker, fingerprint())
+        return Returned(call(*whole), None, worker, fingerprint())
     except Exception as error:
         return Returned(None, error, worker, fingerprint())
 
