@@ -26,6 +26,8 @@ def build(
     out: Path,
     options: Annotated[GraphOptions, Parameter(name="*")] = _AS_USUAL,
     discount: float = 0.98,
+    backend: str = "threads",
+    scheduler: str | None = None,
     reading: Reading = AS_USUAL,
     json: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
@@ -38,11 +40,14 @@ def build(
         out: The bundle to write; an older one there is replaced only once the new one is whole.
         options: The kind of motion graph and how it is built.
         discount: The worth of the next tick's reward against this one's.
+        backend: Where the search for a well-connected graph's transitions runs: threads, or dask for a cluster.
+        scheduler: Address of the Dask cluster's scheduler, such as tcp://127.0.0.1:8786.
         reading: How a folder of capture is read.
         json: Print the report as one JSON object.
     """
     from footwork.motion.bundle import write_bundle
     from footwork.motion.task import SteeringTask
+    from footwork.training.backend import backend as running_on
     from footwork.training.build import build_bundle
     from footwork.training.warm import start_warming
 
@@ -50,10 +55,11 @@ def build(
     started = time.perf_counter()
     warming = start_warming()
     task = SteeringTask(discount=discount)
-    with progress() as report_progress:
+    with running_on(backend, scheduler=scheduler), progress() as report_progress:
         report_progress("reading motions", 0.0)
         dataset = load_motions(motions, reading)
         _tell_unlabelled(dataset)
+        _tell_never_standing(dataset)
         read = time.perf_counter() - started
         report_progress("compiling", 0.0)
         warming.join()
@@ -78,3 +84,10 @@ def _tell_unlabelled(dataset: Dataset) -> None:
     unlabelled = sum(int((clip.labels == "").sum()) for clip in dataset.clips)
     if unlabelled:
         log(f"{unlabelled} of {frames} frames have no label and so no behaviour that can be asked for")
+
+
+def _tell_never_standing(dataset: Dataset) -> None:
+    """Say which clips have no contacts: all of such a clip counts as one flight, so it may be a slip in its floor."""
+    names = [clip.name for clip in dataset.clips if not clip.contacts.any()]
+    if names:
+        log(f"no foot ever stands in {', '.join(names[:5])}{', ...' * (len(names) > 5)} ({len(names)} clips)")
