@@ -97,7 +97,8 @@ def test_inertialisation_changes_what_is_shown_but_not_what_is_done():
 
 def test_the_cost_of_the_graph_is_charged():
     bundle = toy_bundle()
-    costly = replace(bundle, graph=replace(bundle.graph, cost=np.where(bundle.graph.natural, 0.0, 2.0)))
+    smoothness = np.where(bundle.graph.natural, 1.0, np.exp(-2.0))
+    costly = replace(bundle, graph=replace(bundle.graph, smoothness=smoothness))
     report = score(costly, [trace(ticks=400)])
     assert report["transition_jumps"] == pytest.approx(np.exp(-2.0))
 

@@ -21,6 +21,7 @@ from footwork.training.graph_options import GraphOptions
         ("weights", 0),
         ("weights", 100),
         ("graph", "best"),
+        ("metric", "taxicab"),
         ("pairing", "all"),
         ("order", "sideways"),
     ],
@@ -31,4 +32,9 @@ def test_what_is_out_of_range_is_refused_by_name(option, value):
 
 
 def test_a_standard_graph_records_nothing_of_the_well_connected_one():
-    assert GraphOptions(mu=3.0).record() == {"graph": "standard", "threshold": 1.0}
+    assert GraphOptions(mu=3.0).record() == {"graph": "standard", "threshold": 1.0, "metric": "uniform"}
+
+
+def test_a_threshold_left_to_the_data_is_no_number_yet():
+    with pytest.raises(ValueError, match="auto"):
+        GraphOptions(threshold="auto").number  # noqa: B018

@@ -72,8 +72,9 @@ class MotionGraph:
         angular_velocity: of each local rotation, in the parent's frame, rad/s.  # (N, J, 3)
         edge_start: edges of node n are ``edge_start[n]:edge_start[n + 1]``.  # (N + 1,)
         target: the node an edge leads to.  # (E,)
-        cost: dissimilarity s of the frames an edge joins, 0 for natural edges (conventions.md 2).  # (E,)
-        smoothness: exp(-s / sigma), 1 for natural edges.  # (E,)
+        cost: dissimilarity s of the frames an edge joins by the metric that the graph was built with, 0 for natural
+            edges (conventions.md 2).  # (E,)
+        smoothness: exp(-s / sigma) by the uniform metric, whichever built the graph; 1 for natural edges.  # (E,)
         displacement: the target's planar place (x, z, yaw) in the source's planar frame, metres and radians.  # (E, 3)
         natural: whether the edge follows the capture.  # (E,)
 

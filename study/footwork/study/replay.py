@@ -13,7 +13,7 @@ from footwork.motion.task import BEHAVIOURS
 from footwork.motion.tick import TICK_RATE
 from footwork.runtime.world import World
 from footwork.study.foot_slide import Slide, shown_balls, slide_of_frames
-from footwork.study.measures import Followed
+from footwork.study.measures import TASK, Followed
 from footwork.study.trace import SteeringCommands, Trace, steering_commands
 
 
@@ -52,7 +52,13 @@ class Replay:
 
 
 def replay(
-    graph: MotionGraph, trace: Trace, controller: Controller, *, inertialise: bool = True, most_ticks: int | None = None
+    graph: MotionGraph,
+    trace: Trace,
+    controller: Controller,
+    *,
+    inertialise: bool = True,
+    most_ticks: int | None = None,
+    sigma: float = TASK.smoothness_sigma,
 ) -> Replay:
     """Let a character follow a trace, from a frame that stands, facing along the view.
 
@@ -65,6 +71,7 @@ def replay(
         controller: what chooses edges.
         inertialise: whether transitions are smoothed.
         most_ticks: stop after so many ticks.
+        sigma: what the graph's smoothness was made with.
 
     Raises:
         InputError: for a graph without a frame of any behaviour.
@@ -77,7 +84,7 @@ def replay(
     start = "stop" if "stop" in controller.present else controller.present[0]
     world.spawn(controller.start_node(start), 0.0, 0.0, 0.0)
     ran = _run(world, controller, commands.heading, asked)
-    return Replay(trace.name, _followed(graph, commands, ran), _slide(graph, ran), ran.nanoseconds / 1e3)
+    return Replay(trace.name, _followed(graph, commands, ran, sigma), _slide(graph, ran), ran.nanoseconds / 1e3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +129,7 @@ def _askable(behaviour: NDArray, numbered: tuple[str, ...], present: tuple[str, 
     return np.concatenate([[first], asked])[known].astype(np.int32)
 
 
-def _followed(graph: MotionGraph, commands: SteeringCommands, run: _Run) -> Followed:
+def _followed(graph: MotionGraph, commands: SteeringCommands, run: _Run, sigma: float) -> Followed:
     names = [BEHAVIOURS.index(name) if name in BEHAVIOURS else -1 for name in graph.behaviours]
     return Followed(
         heading=commands.heading,
@@ -130,10 +137,15 @@ def _followed(graph: MotionGraph, commands: SteeringCommands, run: _Run) -> Foll
         jump=commands.jump,
         facing=run.facing,
         shown=np.array([*names, -1], np.int32)[graph.behaviour[graph.target[run.edge]]],
-        # the graph's costs are the uniform metric's, as scores ask for
-        cost=graph.cost[run.edge].astype(np.float64),
+        cost=_uniform_costs(graph, run.edge, sigma),
         natural=graph.natural[run.edge],
     )
+
+
+def _uniform_costs(graph: MotionGraph, edges: NDArray, sigma: float) -> NDArray[np.float64]:
+    """s by the uniform metric, which smoothness is judged by whichever metric built the graph.  # (E,)"""
+    smoothness = np.maximum(graph.smoothness[edges].astype(np.float64), np.finfo(np.float32).tiny)
+    return -sigma * np.log(smoothness)
 
 
 def _slide(graph: MotionGraph, run: _Run) -> Slide:

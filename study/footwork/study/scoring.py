@@ -38,7 +38,7 @@ def score(
     ``file``.
 
     Args:
-        bundle: whose graph's edge costs are the uniform metric's, as those of standard graphs are.
+        bundle: what is scored; transitions count by the uniform metric, whichever metric built the graph.
         traces: the recorded players.
         controller: what chooses edges; the bundle's "steering" table by default.
         inertialise: whether transitions are smoothed (it changes the shown poses, so foot slide and time only).
@@ -53,11 +53,12 @@ def score(
     controller = controller or SteeringController(graph, bundle.table("steering"))
     replay(graph, traces[0], controller, inertialise=inertialise, most_ticks=3)  # compiles every kernel
     source = slide_of_capture(graph)
+    sigma = bundle.table("steering").task.smoothness_sigma
     replays = []
     for done, trace in enumerate(traces):
         if progress:
             progress("replaying traces", done / len(traces))
-        replays.append(replay(graph, trace, controller, inertialise=inertialise))
+        replays.append(replay(graph, trace, controller, inertialise=inertialise, sigma=sigma))
     report = _report(replays, controller.present, source)
     interval = measures.bootstrap_total([one.followed for one in replays])
     single = [{"file": one.name} | _report([one], controller.present, source) for one in replays]

@@ -17,6 +17,7 @@ from footwork.training.memory import peak_rss_mb
 from footwork.training.recipe import Built
 from footwork.training.stages import Progress, Stages
 from footwork.training.standard_recipe import build_standard
+from footwork.training.threshold_choice import chosen
 from footwork.training.value_iteration import solve
 from footwork.training.well_connected_recipe import build_well_connected
 
@@ -53,9 +54,9 @@ def build_bundle(
     """A bundle of a motion graph and its steering policy, and a report of how it went.
 
     The report is JSON-able: frames, nodes, edges (of the whole graph), scc_nodes, scc_fraction (of the captured
-    frames), what the graph's kind adds, threshold, seconds (read, which is 0 for the clips came from the caller, each
-    stage and the total), peak_rss_mb, policy (states, sweeps, residual, converged), missing_behaviours (those that no
-    frame of the graph shows, so that commands for them go unanswered) and digest.
+    frames), what the graph's kind adds, threshold, knee (where it was to be found), seconds (read, which is 0 for the
+    clips came from the caller, each stage and the total), peak_rss_mb, policy (states, sweeps, residual, converged),
+    missing_behaviours (those that no frame of the graph shows, so that commands for them go unanswered) and digest.
 
     Args:
         motions: the clips and where they came from.
@@ -70,10 +71,11 @@ def build_bundle(
     task = task or SteeringTask()
     stages = Stages(progress)
     _check(motions.clips)
+    options, choice = chosen(motions.clips, options, stages)
     built = _RECIPES[options.graph](motions.clips, options, task, stages)
     with stages("policy") as tell:
         table = solve(built.graph, task, progress=tell).require_converged()
-    provenance = _provenance(motions, options, task, built)
+    provenance = _provenance(motions, options, task, built) | choice
     bundle = sealed(Bundle(built.graph, {"steering": table}, provenance, tuple(motions.attribution)))
     report = {
         "frames": built.frames,
@@ -83,6 +85,7 @@ def build_bundle(
         "scc_fraction": built.connected_frames / built.frames,
         **built.measured,
         "threshold": options.threshold,
+        **choice,
         "seconds": {"read": 0.0} | stages.seconds | {"total": sum(stages.seconds.values())},
         "peak_rss_mb": peak_rss_mb(),
         "policy": {
@@ -113,7 +116,7 @@ def _provenance(motions: Motions, options: GraphOptions, task: SteeringTask, bui
     """What the bundle was made of and how; nothing in it changes from one run to the next."""
     return {
         "files": list(motions.files),
-        "options": options.record() | {"metric": "uniform", "task": msgspec.to_builtins(task)},
+        "options": options.record() | {"task": msgspec.to_builtins(task)},
         "versions": {"footwork": version("footwork")},
         "counts": {
             "frames": built.frames,

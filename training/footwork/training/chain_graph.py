@@ -33,7 +33,7 @@ def graph_of_chains(
         chains: the chains.
         nodes: the nodes, ascending.  # (n,)
         edges: edges between these nodes, by their numbers in the chains.
-        sigma: the task's smoothness_sigma: smoothness is exp(-s / sigma).
+        sigma: the task's smoothness_sigma: smoothness is exp(-s / sigma) by the uniform metric.
         metric: that aligns, of these chains; the uniform one where not given.
     """
     poses = _poses(clips, chains, nodes)
@@ -43,7 +43,11 @@ def graph_of_chains(
     jumps = np.flatnonzero(~edges.natural)
     # an edge leads to the frame after the one that its source is like
     here, similar = chains.row_of_node[edges.source[jumps]], chains.row_of_node[edges.target[jumps]] - 1
-    there[jumps] = moved(there[jumps], (metric or uniform_rows(chains)).align(here, similar))
+    uniform = uniform_rows(chains)
+    there[jumps] = moved(there[jumps], (metric or uniform).align(here, similar))
+    judged = edges.cost.copy()
+    if metric is not None:
+        judged[jumps] = uniform.costs(here, similar)
     sources: dict[str, Any] = {name: getattr(chains, name)[nodes] for name in _SOURCES}
     return MotionGraph(
         skeleton=chains.skeleton,
@@ -53,7 +57,7 @@ def graph_of_chains(
         edge_start=np.searchsorted(source, np.arange(len(nodes) + 1)).astype(np.int32),
         target=target.astype(np.int32),
         cost=edges.cost.astype(np.float32),
-        smoothness=np.exp(-edges.cost / sigma).astype(np.float32),
+        smoothness=np.exp(-judged / sigma).astype(np.float32),
         displacement=relative(places[source], there).astype(np.float32),
         natural=edges.natural,
         **sources,

@@ -7,6 +7,7 @@ from typing import Literal
 from footwork.errors import InputError
 
 GRAPHS = ("standard", "well-connected")
+METRICS = ("uniform", "dynamics", "torso", "joints")
 PAIRINGS = ("plain", "ratio", "neighbours")
 ORDERS = ("frames", "reverse", "random")
 MAX_WEIGHTS = 99
@@ -21,7 +22,9 @@ class GraphOptions:
 
     Args:
         graph: The kind of motion graph: standard or well-connected.
-        threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm).
+        threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm): a number, or auto
+            for the knee of the captured frames' costs.
+        metric: What tells how unlike two frames are: uniform, dynamics, torso or joints.
         mu: Paths of a well-connected graph may cost this many times the best one's; more makes it smaller.
         weights: How many motions lie between the two of each pair in a well-connected graph: a number, or auto for as
             many, up to nine, as single hops under the threshold need.
@@ -34,7 +37,8 @@ class GraphOptions:
     """
 
     graph: str = "standard"
-    threshold: float = 1.0
+    threshold: float | Literal["auto"] = 1.0
+    metric: str = "uniform"
     mu: float = 5.0
     weights: int | Literal["auto"] = "auto"
     pairing: str = "ratio"
@@ -42,14 +46,24 @@ class GraphOptions:
 
     def __post_init__(self) -> None:
         _require_name(self.graph, GRAPHS, "graph")
+        _require_name(self.metric, METRICS, "metric")
         _require_name(self.pairing, PAIRINGS, "pairing")
         _require_name(self.order, ORDERS, "order")
-        if not (math.isfinite(self.threshold) and self.threshold > 0.0):
-            raise InputError(f"{self.threshold} is no threshold, expected a positive number", "--threshold")
+        if self.threshold != "auto" and not (math.isfinite(self.threshold) and self.threshold > 0.0):
+            raise InputError(f"{self.threshold} is no threshold, expected a positive number or auto", "--threshold")
         if not (math.isfinite(self.mu) and self.mu >= 1.0):
             raise InputError(f"{self.mu}, expected a number from 1 up", "--mu")
         if self.weights != "auto" and not 1 <= self.weights <= MAX_WEIGHTS:
             raise InputError(f"{self.weights}, expected auto or 1 to {MAX_WEIGHTS}", "--weights")
+
+    @property
+    def number(self) -> float:
+        """The threshold, once it is a number.
+
+        Raises:
+            ValueError: where it is still to be chosen.
+        """
+        return float(self.threshold)
 
     def record(self) -> dict[str, str | float | int]:
         """Those that matter for this kind of graph, by name."""

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.alignment import Alignment, turn
 from footwork.motion.graph import MotionGraph
-from footwork.motion.metric import Metric
+from footwork.motion.metric import Metric, PointCloudMetric
 from footwork.training.nodes import Nodes
 from footwork.training.transitions import Minima
 
@@ -50,16 +50,23 @@ def edges_of(ends: NDArray[np.intp], minima: Minima) -> Edges:
     return Edges(source[order], similar[order], cost[order])
 
 
-def standard_graph(nodes: Nodes, metric: Metric, minima: Minima, sigma: float) -> MotionGraph:
+def standard_graph(
+    nodes: Nodes, metric: Metric, minima: Minima, sigma: float, uniform: PointCloudMetric | None = None
+) -> MotionGraph:
     """The standard motion graph over all frames.
 
     Args:
         nodes: the frames.
         metric: the metric of the same frames, which aligns the two sides of a transition.
         minima: the pairs of frames where transitions are.
-        sigma: the task's smoothness_sigma: smoothness is exp(-s / sigma).
+        sigma: the task's smoothness_sigma: smoothness is exp(-s / sigma) by the uniform metric.
+        uniform: that metric of the same frames, where ``metric`` is another.
     """
     edges = edges_of(nodes.ends, minima)
+    judged = edges.cost.copy()
+    if uniform is not None:
+        jumps = np.flatnonzero(edges.source != edges.similar)
+        judged[jumps] = uniform.pair_costs(edges.source[jumps], edges.similar[jumps])
     return MotionGraph(
         skeleton=nodes.skeleton,
         clips=nodes.clips,
@@ -68,7 +75,7 @@ def standard_graph(nodes: Nodes, metric: Metric, minima: Minima, sigma: float) -
         edge_start=np.searchsorted(edges.source, np.arange(len(nodes.ends) + 1)).astype(np.int32),
         target=edges.target.astype(np.int32),
         cost=edges.cost.astype(np.float32),
-        smoothness=np.exp(-edges.cost / sigma).astype(np.float32),
+        smoothness=np.exp(-judged / sigma).astype(np.float32),
         displacement=_displacements(nodes.places, edges, metric).astype(np.float32),
         natural=edges.source == edges.similar,
         **nodes.arrays,

@@ -7,6 +7,7 @@ from typing import Any
 from footwork.errors import InputError
 from footwork.motion.clip import Clip
 from footwork.motion.metric import PointCloudMetric
+from footwork.motion.metrics import metric_of
 from footwork.motion.task import SteeringTask
 from footwork.training.connectivity import connecting_threshold, largest_component, restricted
 from footwork.training.graph_options import GraphOptions
@@ -29,15 +30,16 @@ def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringT
     """
     _check_room(sum(clip.frame_count for clip in clips))
     with stages("metric"):
-        metric = PointCloudMetric.of_clips(clips)
+        metric = metric_of(options.metric, clips)
         costs = metric.all_pairs()
     with stages("graph"):
         nodes = nodes_of(clips, task.behaviours)
-        minima = local_minima(costs, nodes.lengths, options.threshold)
-        whole = standard_graph(nodes, metric, minima, task.smoothness_sigma)
+        minima = local_minima(costs, nodes.lengths, options.number)
+        uniform = None if options.metric == "uniform" else PointCloudMetric.of_clips(clips)
+        whole = standard_graph(nodes, metric, minima, task.smoothness_sigma, uniform)
         part = largest_component(whole.node_count, whole.source, whole.target)
         if not part.size:
-            raise _unconnected(options.threshold, minima, local_minima(costs, nodes.lengths), nodes.ends)
+            raise _unconnected(options.number, minima, local_minima(costs, nodes.lengths), nodes.ends)
         graph = restricted(whole, part)
     return Built(graph, whole.node_count, whole.node_count, whole.edge_count)
 

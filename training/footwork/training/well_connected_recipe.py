@@ -18,6 +18,7 @@ from footwork.training.interpolation import interpolated
 from footwork.training.path_cost import path_costs
 from footwork.training.recipe import Built
 from footwork.training.reduction import Reduction, reduced
+from footwork.training.row_metric import row_metric
 from footwork.training.stages import Stages
 from footwork.training.transition_search import search
 
@@ -34,16 +35,19 @@ def build_well_connected(clips: Sequence[Clip], options: GraphOptions, task: Ste
     with stages("interpolation") as tell:
         chains, interpolation = chains_between(clips, options, task, tell)
     with stages("transitions") as tell:
-        edges = edges_of_chains(chains, search(chains, options.threshold, progress=tell), options.threshold)
+        metric = None if options.metric == "uniform" else row_metric(options.metric, chains)
+        minima = search(chains, options.number, metric=metric, progress=tell)
+        edges = edges_of_chains(chains, minima, options.number, metric)
+        del minima
     with stages("reduction") as tell:
         kept = reduction_of(chains, edges, options, sigma, tell)
         before = {"nodes": chains.node_count, "edges": len(edges.source)}
         edges = edges.some(kept.edges)
     with stages("graph"):
-        whole = graph_of_chains(clips, chains, kept.nodes, edges, sigma)
+        whole = graph_of_chains(clips, chains, kept.nodes, edges, sigma, metric)
         part = largest_component(whole.node_count, whole.source, whole.target)
         if not part.size:
-            problem = f"nothing can be walked without end at threshold {options.threshold:g}, expected a greater one"
+            problem = f"nothing can be walked without end at threshold {options.number:g}, expected a greater one"
             raise InputError(problem, "threshold")
         graph = restricted(whole, part)
     measured = {"interpolation": interpolation, "before_reduction": before}
@@ -54,7 +58,7 @@ def chains_between(
     clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, tell: Tell | None = None
 ) -> tuple[Chains, dict[str, Any]]:
     """The clips and the motions between their segments, with a report."""
-    threshold = options.threshold if options.weights == "auto" else None
+    threshold = options.number if options.weights == "auto" else None
     weights = AUTO_WEIGHTS if options.weights == "auto" else options.weights
     return interpolated(clips, task.behaviours, weights, options.pairing, threshold, tell)
 
