@@ -66,6 +66,8 @@ def build(
         compiled = time.perf_counter() - started - read
         bundle, report = build_bundle(dataset, options, task=task, progress=report_progress)
         digest = write_bundle(out, bundle)
+    if warning := report.get("knee", {}).get("warning"):
+        log(warning)
     seconds = report["seconds"] | {"read": read, "compile": compiled, "total": time.perf_counter() - started}
     emit(report | {"seconds": seconds, "digest": digest}, json, str(out))
 
