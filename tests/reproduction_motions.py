@@ -6,11 +6,12 @@ from pathlib import Path
 from footwork.motion.bvh import write_bvh
 from footwork.training.embedded import embedded_clips
 
+FROM, FRAMES = 20, 70  # of each clip, so that a search takes no time
 # set -> clip -> how many of its frames are in the core
 LAYOUT = {
-    "dataset1": {"walk_slow": 80, "walk_normal": 80},
-    "dataset2": {"walk_normal": 90, "walk_paces": 90},
-    "dataset3": {"walk_normal": 100, "run_short": 100, "walk_duck": 100, "walk_leap": 90},
+    "dataset1": {"walk_slow": 60, "walk_normal": 60},
+    "dataset2": {"walk_normal": 60, "curve_wide_left": 60},
+    "dataset3": {"walk_normal": 60, "run_short": 60, "walk_duck": 60},
 }
 
 
@@ -21,7 +22,7 @@ def write_motion_sets(folder: Path) -> Path:
     for name, cores in LAYOUT.items():
         (folder / name).mkdir(parents=True)
         for clip_name, frames in cores.items():
-            clip, file = clips[clip_name], f"{clip_name}.bvh"
+            clip, file = clips[clip_name].cut(FROM, FROM + FRAMES), f"{clip_name}.bvh"
             write_bvh(folder / name / file, clip)
             labels += [f"{name},{file},{start},{end},{label}" for start, end, label in _runs(list(clip.labels))]
             ranges.append(f"{name},{file},0,{frames}")

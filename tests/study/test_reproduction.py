@@ -6,8 +6,6 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from reproduction_motions import LAYOUT, write_motion_sets
-from shared_data import MOTIONS, needs_motions
 
 from footwork.errors import InputError
 from footwork.study.reproduction import registry, zhao_safonova
@@ -18,8 +16,13 @@ from footwork.study.reproduction.page import page_of, shown
 from footwork.study.reproduction.row import Column, Figure, Result, Row, Table, Verdict, judged, unjudged
 from footwork.study.reproduction.run import reproduce
 from footwork.study.reproduction.trends import fitted, growth
+from reproduction_motions import LAYOUT, write_motion_sets
+from shared_data import MOTIONS, needs_motions
 
-EVERY_ROW = ["Z-T1", "Z-T2", "Z-F6", "Z-F7", "Z-T3", "Z-T4", "Z-R1"]
+# a run of all rows compiles every kernel of the pipeline where they are not cached yet
+pytestmark = pytest.mark.timeout(400)
+
+EVERY_ROW = ["Z-T1", "Z-T2", "Z-F6", "Z-F7", "Z-T3", "Z-T4", "Z-R1", "Z-F8", "Z-T5", "Z-B", "Z-F1,2", "Z-Q"]
 ABOUT = {
     "version": "1",
     "command": "footwork reproduce",
@@ -39,7 +42,7 @@ def motions(tmp_path_factory):
 @pytest.fixture(scope="module")
 def quick(motions, tmp_path_factory):
     out = tmp_path_factory.mktemp("out") / "deeper"
-    return reproduce(motions, out, quick=True), out
+    return reproduce(motions, out, only=["Z"], quick=True), out
 
 
 def row(run, name="X-1") -> Row:
@@ -58,10 +61,10 @@ class _Balance(HTMLParser):
     def __init__(self) -> None:
         super().__init__()
         self.open: list[str] = []
-        self.ids: list[str] = []
+        self.names: list[str] = []
 
     def handle_starttag(self, tag, attrs):
-        self.ids += [value for name, value in attrs if name == "id"]
+        self.names += [value or "" for name, value in attrs if name == "id"]
         if tag not in self.VOID:
             self.open.append(tag)
 
@@ -70,11 +73,11 @@ class _Balance(HTMLParser):
             assert self.open.pop() == tag
 
     def handle_startendtag(self, tag, attrs):
-        self.ids += [value for name, value in attrs if name == "id"]
+        self.names += [value or "" for name, value in attrs if name == "id"]
 
 
 def test_every_row_of_the_paper_is_there_in_order():
-    assert [row.name for row in registry.all_rows()] == EVERY_ROW
+    assert [row.name for row in registry.all_rows() if row.paper.letter == "Z"] == EVERY_ROW
     assert all(row.claim and row.title and row.place for row in registry.all_rows())
 
 
@@ -124,8 +127,8 @@ def test_the_page_is_one_sound_file_that_needs_no_other(quick):
     check = _Balance()
     check.feed(page)
     assert not check.open
-    assert len(check.ids) == len(set(check.ids))
-    assert {made["name"] for made in quick[0]["rows"]} <= set(check.ids)
+    assert len(check.names) == len(set(check.names))
+    assert {made["name"] for made in quick[0]["rows"]} <= set(check.names)
     assert not re.search(r'(?:src|href)="(?!data:|#)', page)
     assert "prefers-color-scheme: dark" in page
     assert sorted(path.name for path in quick[1].iterdir()) == ["index.html", "reproduction.json"]
@@ -137,7 +140,7 @@ def test_what_the_page_shows_is_escaped():
     result = Result([judged("x < y", False, "since y > x")], [table], [figure], notes=["n & n"])
     page = page_of([Outcome(row(lambda bench: result), Status.DONE, result)], ABOUT)
     assert "<td>" in re.sub(r"<td[^>]*>", "<td>", page)
-    for raw in ("A <row>", "x < y", "a < b", "n</", "&lt;td&gt;1", "thanks to <someone>"):
+    for raw in ("A <row>", "x < y", "a < b", "&lt;td&gt;1", "thanks to <someone>"):
         assert raw not in page
     for escaped in ("A &lt;row&gt;", "x &lt; y", "m&amp;m", "&lt;td&gt;", "&quot;x&quot;", "n &amp; n"):
         assert escaped in page

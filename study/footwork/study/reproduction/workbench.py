@@ -15,8 +15,9 @@ Progress = Callable[[str, float], None]
 Made = TypeVar("Made")
 MG, WCMG = "MG", "wcMG"  # standard and well-connected graphs, as the paper abbreviates them
 LARGE = "dataset3"  # the set whose well-connected graph takes minutes
-FINE, COARSE = 9, 3  # weights between two segments; at most thresholds those of the large set must do with few
-BUILT_AT = 0.2  # threshold at which the large set is built with FINE weights too, and graphs are reduced
+FINE, COARSE = 9, 1  # weights between two segments: of the small sets, and of the large one where thresholds vary
+BUILT_AT = 0.2  # threshold at which graphs are reduced
+LARGE_BUILT = 1  # weights of the large set there: from COARSE up to FINE, as the search's speed allows
 LARGE_UP_TO = 0.8  # threshold to which the well-connected graph of the large set is built whole
 SMALL_UP_TO = 6.0  # that of the small sets: the highest in the paper's tables
 
@@ -54,10 +55,10 @@ class Workbench:
     @property
     def notes(self) -> list[str]:
         """What every row on well-connected graphs should say of them."""
-        few = f"; those of {LARGE} have {COARSE} unless it says otherwise: {FINE} take minutes above {BUILT_AT}"
+        few = f"; those of {LARGE} have {COARSE}, because more take longer than a run should"
         return [
             "MG is the standard graph, wcMG the well-connected one: interpolated between two segments of which neither "
-            f"lasts over twice as long as the other, with {FINE} weights{'' if self.quick else few}.",
+            f"lasts over twice as long as the other, with {FINE} weights between them{'' if self.quick else few}.",
             *([f"A quick run: the well-connected graph of {LARGE} was left out."] if self.quick else []),
         ]
 
@@ -83,7 +84,7 @@ class Workbench:
         return list(dict.fromkeys(line for dataset in read for line in dataset.attribution))
 
     def graphs(self, name: str, weights: int | None = None) -> Graphs:
-        """The graphs of a set's core ranges, by default with COARSE weights for the large set and FINE for others."""
+        """The graphs of a set's core ranges, COARSE weights for the large set and FINE for others where not told."""
         weights = weights or (COARSE if name == LARGE else FINE)
         up_to = BUILT_AT if name == LARGE else SMALL_UP_TO
 
@@ -113,10 +114,10 @@ class Workbench:
         return self._surveyed(kind, graphs, threshold, make)
 
     def fine_survey(self) -> Survey | None:
-        """That of the large set's well-connected graph at BUILT_AT with FINE weights, None in a quick run."""
-        if self.quick:
+        """That of the large set at BUILT_AT with LARGE_BUILT weights, None where that is no other graph."""
+        if self.quick or LARGE_BUILT == COARSE:
             return None
-        graphs = self.graphs(LARGE, FINE)
+        graphs = self.graphs(LARGE, LARGE_BUILT)
         return self._surveyed(WCMG, graphs, BUILT_AT, graphs.well_connected)
 
     def surveys(self, name: str, threshold: float) -> tuple[Survey | None, Survey | None]:

@@ -18,7 +18,7 @@ from footwork.study.reproduction.row import (
 )
 from footwork.study.reproduction.survey import Survey
 from footwork.study.reproduction.words import joined_words
-from footwork.study.reproduction.workbench import BUILT_AT, COARSE, FINE, MG, WCMG, Workbench
+from footwork.study.reproduction.workbench import BUILT_AT, COARSE, LARGE_BUILT, MG, WCMG, Workbench
 
 SET = "dataset3"
 PUBLISHED_LM = zhao_safonova.MANEUVERABILITY
@@ -110,7 +110,7 @@ def _table(found: dict[str, dict[float, Survey | None]], fine: Survey | None) ->
     columns.append(Column("wcMG weights", "", OURS))
     lines: list[list[Cell]] = [[at, *_published(at), *_cells(found, at), COARSE] for at in THRESHOLDS]
     if fine:
-        lines.insert(0, [BUILT_AT, *_published(BUILT_AT), None, None, None, *_cell(fine), FINE])
+        lines.insert(0, [BUILT_AT, *_published(BUILT_AT), None, None, None, *_cell(fine), LARGE_BUILT])
     return Table(f"Local maneuverability (LM) and captured frames in the largest part, {SET}", columns, lines)
 
 

@@ -21,7 +21,7 @@ from footwork.study.reproduction.row import (
 )
 from footwork.study.reproduction.survey import Survey
 from footwork.study.reproduction.trends import Line, fitted
-from footwork.study.reproduction.workbench import BUILT_AT, COARSE, FINE, MG, WCMG, Workbench
+from footwork.study.reproduction.workbench import BUILT_AT, COARSE, LARGE_BUILT, MG, WCMG, Workbench
 
 SET = "dataset3"
 STANDARD_AT = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0, 3.0, 5.0)
@@ -42,7 +42,7 @@ def run(bench: Workbench) -> Result:
     fine = bench.fine_survey()
     lines = [[at, *_cells(found[MG].get(at)), *_cells(found[WCMG].get(at)), COARSE] for at in STANDARD_AT]
     if fine:
-        lines.insert(0, [BUILT_AT, None, None, *_cells(fine), FINE])
+        lines.insert(0, [BUILT_AT, None, None, *_cells(fine), LARGE_BUILT])
     columns = [Column("threshold s", digits=1)]
     for kind in (MG, WCMG):
         columns += [Column(f"{kind} time", "s", OURS), Column(f"{kind} frames", "%", OURS, 1)]

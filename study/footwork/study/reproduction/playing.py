@@ -1,0 +1,55 @@
+"""Paths as the runtime shows them: how jerky they are with and without inertialisation, and how feet slide on them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.motion.clip import Clip
+from footwork.motion.graph import MotionGraph
+from footwork.motion.kinematics import clip_places
+from footwork.motion.tick import TICK_RATE
+from footwork.runtime.world import World
+from footwork.study.foot_slide import Slide
+from footwork.study.graph_paths import path_nodes
+from footwork.study.path_quality import slide_by_step
+
+
+def played_clip(graph: MotionGraph, edges: NDArray[np.int64], *, inertialise: bool) -> Clip:
+    """The poses that a character shows on its way along a path, from after its first tick on.  # (E',) -> E' frames
+
+    Raises:
+        InputError: for edges that are no path.
+    """
+    nodes = path_nodes(graph, edges)
+    world = World(graph, 1, inertialise=inertialise)
+    slot = world.spawn(int(nodes[0]), 0.0, 0.0, 0.0)
+    root, rotations = [], []
+    for edge in edges.astype(np.int32):
+        world.step(np.array([edge], dtype=np.int32))
+        shown_root, shown_rotations = world.show(1.0)
+        root.append(shown_root[slot].copy())
+        rotations.append(shown_rotations[slot].copy())
+    return Clip(
+        name="played",
+        skeleton=graph.skeleton,
+        fps=float(TICK_RATE),
+        root_position=np.array(root, dtype=np.float64),
+        rotations=np.array(rotations, dtype=np.float64),
+        contacts=graph.contacts[nodes[1:]],
+        labels=np.array(graph.labels)[graph.label[nodes[1:]]],
+    )
+
+
+def jerkiness(clip: Clip) -> NDArray[np.float64]:
+    """How far each frame is off the middle of its neighbours: root mean square over joints, metres.  # (F - 2,)
+
+    A jump of the pose by d shows as d / 2; smooth motion as its acceleration.
+    """
+    places = clip_places(clip)[0]
+    off = places[1:-1] - 0.5 * (places[:-2] + places[2:])
+    return np.sqrt(np.mean(np.sum(off**2, axis=-1), axis=-1))
+
+
+def slide_inside(graph: MotionGraph, edges: NDArray[np.int64]) -> Slide:
+    """The slide of the bare path over its natural edges alone: what captured and interpolated motion do themselves."""
+    parts = slide_by_step(graph, edges)
+    return parts["captured"] + parts["interpolated"]
