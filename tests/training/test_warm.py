@@ -1,8 +1,13 @@
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+import pytest
+
 from footwork.motion.window_costs import window_costs
+from footwork.training.blend_kernels import align_starts
 from footwork.training.build import build_bundle
+from footwork.training.chain_minima import minima_of_rows
 from footwork.training.graph_options import GraphOptions
 from footwork.training.transitions import _find
 from footwork.training.value_iteration import _sweep
@@ -17,18 +22,26 @@ class Motions:
     attribution: tuple[str, ...] = ()
 
 
-def test_after_warming_a_build_compiles_nothing_more():
-    warm()
-    kernels = (window_costs, _find, _sweep)
+@pytest.mark.parametrize(
+    ("graph", "kernels"),
+    [
+        ("standard", (window_costs, _find, _sweep)),
+        ("well-connected", (align_starts, minima_of_rows, _sweep)),
+    ],
+)
+def test_after_warming_a_build_compiles_nothing_more(graph, kernels):
+    options = GraphOptions(graph=graph, threshold=1.0, weights=1)
+    warm(options)
     before = [len(kernel.signatures) for kernel in kernels]
     assert all(before)
-    motions = Motions(sample_clips(3, 70))
-    build_bundle(motions, GraphOptions(threshold=1.0))
+    left = np.arange(70) // 10 % 2 == 0
+    clips = [replace(clip, contacts=np.stack([left, ~left], axis=1)) for clip in sample_clips(3, 70)]
+    build_bundle(Motions(clips), options)
     assert [len(kernel.signatures) for kernel in kernels] == before
 
 
 def test_warming_and_building_go_on_side_by_side():
-    thread = start_warming()
+    thread = start_warming(GraphOptions())
     motions = Motions(sample_clips(2, 70))
     assert build_bundle(motions, GraphOptions(threshold=1.0))[1]["scc_nodes"] > 0
     thread.join(60)

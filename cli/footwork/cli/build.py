@@ -53,7 +53,7 @@ def build(
 
     _check_place(out)
     started = time.perf_counter()
-    warming = start_warming()
+    warming = start_warming(options)
     task = SteeringTask(discount=discount)
     with running_on(backend, scheduler=scheduler), progress() as report_progress:
         report_progress("reading motions", 0.0)

@@ -1,50 +1,57 @@
 """Compile the kernels of a build while something else goes on, such as reading the files to build from."""
 
 from contextlib import suppress
+from dataclasses import replace
 from threading import Thread
 
 import numpy as np
 
+from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
-from footwork.motion.metric import PointCloudMetric
 from footwork.motion.task import SteeringTask
-from footwork.training.connectivity import largest_component, restricted
-from footwork.training.nodes import nodes_of
-from footwork.training.standard_graph import standard_graph
-from footwork.training.transitions import Minima, local_minima
+from footwork.training.graph_options import GraphOptions
+from footwork.training.stages import Stages
+from footwork.training.standard_recipe import build_standard
 from footwork.training.value_iteration import solve
+from footwork.training.well_connected_recipe import build_well_connected
 
-_FRAMES = 30
+_FRAMES = 48
+_STEP = 12
 
 
-def start_warming() -> Thread:
+def start_warming(options: GraphOptions) -> Thread:
     """Warm up on a thread of its own; a build that comes too early just waits for the kernels it needs."""
-    thread = Thread(target=_warm_while_running, name="warm", daemon=True)
+    thread = Thread(target=_warm_while_running, args=(options,), name="warm", daemon=True)
     thread.start()
     return thread
 
 
-def _warm_while_running() -> None:
+def _warm_while_running(options: GraphOptions) -> None:
     # A program that ends early (bad input, say) takes no new work any more, and needs none of it warm.
     with suppress(RuntimeError):
-        warm()
+        warm(options)
 
 
-def warm() -> None:
-    """Compile every kernel of a build, or load it from where an earlier run left it, on two still clips."""
-    task = SteeringTask()
-    clips = [_still_clip()] * 2
-    metric, nodes = PointCloudMetric.of_clips(clips), nodes_of(clips, task.behaviours)
-    local_minima(metric.all_pairs(), nodes.lengths, 1.0)
-    # over to the second clip late in the first, and back early in the first from late in the second: a cycle
-    there_and_back = Minima(np.array([5, 20]), _FRAMES + np.array([10, 5]), np.zeros(2))
-    whole = standard_graph(nodes, metric, there_and_back, task.smoothness_sigma)
-    solve(restricted(whole, largest_component(whole.node_count, whole.source, whole.target)), task)
+def warm(options: GraphOptions) -> None:
+    """Compile every kernel of a build, or load it from where an earlier run left it, on two swaying clips."""
+    task, clips = SteeringTask(), [_swaying_clip()] * 2
+    # whatever else is asked for, only the metric has kernels of its own; bad motions are told of by the build itself
+    small = replace(options, graph="standard", threshold=1.0, weights=1)
+    built = build_standard(clips, small, task, Stages())
+    solve(built.graph, task)
+    if options.graph == "well-connected":
+        with suppress(InputError):
+            build_well_connected(clips, replace(small, graph="well-connected"), task, Stages())
 
 
-def _still_clip() -> Clip:
-    body = default_body()
+def _swaying_clip() -> Clip:
+    """A body that leans from one foot to the other and stands on them by turns."""
+    body, time = default_body(), np.arange(_FRAMES)
     rotations = np.tile(quaternion.IDENTITY, (_FRAMES, body.joint_count, 1))
-    return Clip("still", body, 30.0, np.tile([0.0, 1.0, 0.0], (_FRAMES, 1)), rotations)
+    lean = 0.3 * np.sin(np.pi * time / _STEP)
+    rotations[:, 0] = quaternion.from_rotation_vector(lean[:, None] * np.array([0.0, 0.0, 1.0]))
+    left = time // _STEP % 2 == 0
+    root = np.tile([0.0, 1.0, 0.0], (_FRAMES, 1))
+    return Clip("swaying", body, 30.0, root, rotations, contacts=np.stack([left, ~left], axis=1))
