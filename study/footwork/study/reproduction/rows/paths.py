@@ -29,7 +29,7 @@ from footwork.study.reproduction.row import (
 from footwork.study.reproduction.slides import slide_judgements
 from footwork.study.reproduction.words import joined_words
 from footwork.study.reproduction.workbench import BUILT_AT, LARGE, Workbench
-from footwork.study.tour import middles
+from footwork.study.tour import middles, tour_labels
 
 STEPS = "dataset1"
 THROUGH = ("walk", "run", "jump", "duck")
@@ -39,8 +39,13 @@ GO_ON = 15  # frames to go on naturally at each stop
 def run(bench: Workbench) -> Result:
     """Paths from the slowest walk to the fastest and back, and through four behaviours."""
     paths = [("short steps, long steps, short steps", STEPS, *_steps(bench))]
+    missing: list[str] = []
     if not bench.quick:
-        paths.append((", ".join(THROUGH), LARGE, *_behaviours(bench)))
+        graph = well_connected_motion_graph(bench, LARGE)
+        there = [label for label in THROUGH if label in tour_labels(graph)]
+        missing = [label for label in THROUGH if label not in there]
+        if len(there) > 1:
+            paths.append((", ".join(there), LARGE, graph, _behaviours(graph, there)))
     quality = [_quality(graph, edges) for _, _, graph, edges in paths]
     names = [name for name, _, _, _ in paths]
     return Result(
@@ -53,6 +58,7 @@ def run(bench: Workbench) -> Result:
             f"comes through the middle of a captured stretch of each kind, and goes on there for {GO_ON} frames. Poses "
             "are shown as they are in the graph: nothing is blended, smoothed or held to the ground.",
             "The frames of a path between two captured ones are labelled as the heavier one.",
+            *([f"Not in the largest part of {LARGE}: {joined_words(missing)}."] if missing else []),
             *bench.notes,
         ],
     )
@@ -72,10 +78,9 @@ def _middle(graph: MotionGraph, clip: int) -> NDArray[np.intp]:
     return nodes[len(nodes) // 2 : len(nodes) // 2 + 1]
 
 
-def _behaviours(bench: Workbench) -> tuple[MotionGraph, NDArray[np.int64]]:
-    graph = well_connected_motion_graph(bench, LARGE)
-    stops = [middles(graph, label) for label in THROUGH]
-    return graph, best_path_through(graph, [stops[0][:1], *stops[1:]], ticks=GO_ON)
+def _behaviours(graph: MotionGraph, labels: Sequence[str]) -> NDArray[np.int64]:
+    stops = [middles(graph, label) for label in labels]
+    return best_path_through(graph, [stops[0][:1], *stops[1:]], ticks=GO_ON)
 
 
 def _quality(graph: MotionGraph, edges: NDArray[np.int64]) -> dict[str, Any]:
