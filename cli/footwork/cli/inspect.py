@@ -8,6 +8,7 @@ from cyclopts import Parameter
 
 from footwork.cli.motions import AS_USUAL, EMBEDDED, Reading, load_motions
 from footwork.cli.output import Report, emit, progress
+from footwork.errors import InputError
 
 
 def inspect(
@@ -15,6 +16,7 @@ def inspect(
     /,
     *,
     plots: Path | None = None,
+    metric: str | None = None,
     reading: Reading = AS_USUAL,
     json: Annotated[bool, Parameter(negative=())] = False,
 ) -> None:
@@ -25,12 +27,19 @@ def inspect(
     Args:
         source: A bundle, a folder of BVH or ASF/AMC files, embedded:locomotion or embedded:fighting.
         plots: A folder to draw contact sheets and plots into.
+        metric: Look at motions through a metric (uniform, dynamics, torso or joints): its ranked costs and their knee,
+            which --threshold auto of a build takes.
         reading: How a folder of capture is read.
         json: Print the report as one JSON object.
     """
     with progress() as report_progress:
         report_progress("reading", 0.0)
-        if source.startswith(EMBEDDED) or Path(source).is_dir():
+        motions = source.startswith(EMBEDDED) or Path(source).is_dir()
+        if metric is not None and not motions:
+            raise InputError("only motions can be looked at through a metric, expected a folder of them", source)
+        if metric is not None:
+            report = _inspect_metric(source, metric, plots, reading, report_progress)
+        elif motions:
             report = _inspect_motions(source, plots, reading, report_progress)
         else:
             report = _inspect_bundle(Path(source), plots, report_progress)
@@ -45,6 +54,21 @@ def _inspect_motions(source: str, plots: Path | None, reading: Reading, tell: Re
     tell("drawing" if plots else "measuring", 0.5)
     pictures = contact_sheets(plots, list(dataset.clips)) if plots else []
     return inspect_clips(dataset.clips) | _about(dataset.attribution, pictures)
+
+
+def _inspect_metric(source: str, metric: str, plots: Path | None, reading: Reading, tell: Report) -> dict:
+    from footwork.motion.metrics import require_metric
+    from footwork.study.metric_report import knee_plot, metric_report
+
+    require_metric(metric, "--metric")
+    dataset = load_motions(source, reading)
+    tell("measuring", 0.5)
+    report, knee = metric_report(dataset.clips, metric)
+    pictures = []
+    if plots:
+        plots.mkdir(parents=True, exist_ok=True)
+        pictures = [knee_plot(knee, metric, plots / f"knee_{metric}.png")]
+    return report | _about(dataset.attribution, pictures)
 
 
 def _inspect_bundle(path: Path, plots: Path | None, tell: Report) -> dict:
