@@ -9,12 +9,15 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from footwork.errors import InputError
+from footwork.training import reduction
 from footwork.training.path_cost import UNIT
-from footwork.training.reduction import ORDERS, reduced
+from footwork.training.reduction import reduced
+from footwork.training.source_order import ORDERS
 from random_graphs import RandomGraph, random_graph
 
 MUS = (1.0, 1.1, 2.0, 5.0, 100.0)
 SEEDS = st.integers(0, 10_000)
+STREAMS = st.integers(1, 3)
 
 
 def costs_between_originals(graph: RandomGraph, edges: Any = slice(None)):
@@ -26,8 +29,8 @@ def costs_between_originals(graph: RandomGraph, edges: Any = slice(None)):
     return dijkstra(csr_array(matrix), indices=np.arange(graph.originals))[:, : graph.originals]
 
 
-def sources_in_order(graph: RandomGraph) -> list[int]:
-    """Clip by clip, each from its last frame to its first."""
+def rounds_in_order(graph: RandomGraph, streams: int) -> list[list[int]]:
+    """Which originals are searched from side by side: clip by clip, each from its last frame to its first."""
     edges = zip(graph.source.tolist(), graph.target.tolist(), graph.base.tolist(), strict=True)
     joined = {a for a, b, cost in edges if b == a + 1 and b < graph.originals and cost == UNIT}
     runs: list[list[int]] = [[]]
@@ -35,7 +38,11 @@ def sources_in_order(graph: RandomGraph) -> list[int]:
         runs[-1].insert(0, node)
         if node not in joined:
             runs.append([])
-    return [node for run in runs for node in run]
+    own: list[list[list[int]]] = [[] for _ in range(streams)]
+    for run in sorted(runs, key=len, reverse=True):
+        min(own, key=lambda mine: sum(map(len, mine))).append(run)
+    queues = [[node for run in sorted(mine) for node in run] for mine in own]
+    return [[queue[turn] for queue in queues if turn < len(queue)] for turn in range(max(map(len, queues)))]
 
 
 def slow_labels(graph: RandomGraph, cost, origin: int):
@@ -47,30 +54,36 @@ def slow_labels(graph: RandomGraph, cost, origin: int):
     return label
 
 
-def slowly_reduced(graph: RandomGraph, mu: float) -> tuple[list[int], list[int]]:
-    """The definition over the whole graph, with the rules for ties written out."""
+def slow_paths(graph: RandomGraph, mu: float, kept, origin: int) -> set[int]:
+    """The edges of the best paths over the whole graph, with the rules for ties written out."""
+    both, chosen = kept[graph.source] & kept[graph.target], set()
+    cost = np.where(both, graph.base, np.floor(mu * graph.base))
+    label = slow_labels(graph, cost, origin)
+    best = np.flatnonzero(np.isfinite(label[graph.target]) & (label[graph.source] + cost == label[graph.target]))
+    first = np.lexsort((best, graph.base[best], graph.source[best], ~kept[graph.source[best]]))
+    last = {int(graph.target[edge]): int(edge) for edge in best[first][::-1]}
+    for wanted in np.flatnonzero(np.isfinite(label[: graph.originals])).tolist():
+        while wanted != origin:
+            chosen.add(last[wanted])
+            wanted = int(graph.source[last[wanted]])
+    return chosen
+
+
+def slowly_reduced(graph: RandomGraph, mu: float, streams: int) -> tuple[list[int], list[int]]:
+    """The definition: searches of a round all see what was kept before it."""
     kept, chosen = np.arange(graph.nodes) < graph.originals, set()
-    for origin in sources_in_order(graph):
-        both = kept[graph.source] & kept[graph.target]
-        cost = np.where(both, graph.base, np.floor(mu * graph.base))
-        label = slow_labels(graph, cost, origin)
-        best = np.flatnonzero(np.isfinite(label[graph.target]) & (label[graph.source] + cost == label[graph.target]))
-        first = np.lexsort((best, graph.base[best], graph.source[best], ~kept[graph.source[best]]))
-        last = {int(graph.target[edge]): int(edge) for edge in best[first][::-1]}
-        for wanted in np.flatnonzero(np.isfinite(label[: graph.originals])).tolist():
-            while wanted != origin:
-                chosen.add(last[wanted])
-                wanted = int(graph.source[last[wanted]])
+    for origins in rounds_in_order(graph, streams):
+        chosen = chosen.union(*(slow_paths(graph, mu, kept, origin) for origin in origins))
         kept[graph.source[sorted(chosen)]] = True
     return np.flatnonzero(kept).tolist(), sorted(chosen)
 
 
-@given(SEEDS, st.sampled_from(MUS), st.booleans())
+@given(SEEDS, st.sampled_from(MUS), STREAMS, st.booleans())
 @settings(max_examples=60, deadline=None)
-def test_it_keeps_what_the_definition_keeps_node_for_node_and_edge_for_edge(seed, mu, ties):
+def test_it_keeps_what_the_definition_keeps_node_for_node_and_edge_for_edge(seed, mu, streams, ties):
     graph = random_graph(seed, ties=ties)
-    found = reduced(*graph, mu)
-    assert (found.nodes.tolist(), found.edges.tolist()) == slowly_reduced(graph, mu)
+    found = reduced(*graph, mu, streams=streams)
+    assert (found.nodes.tolist(), found.edges.tolist()) == slowly_reduced(graph, mu, streams)
 
 
 @given(SEEDS, st.booleans())
@@ -82,21 +95,21 @@ def test_at_mu_one_every_best_cost_between_originals_stays(seed, ties):
     )
 
 
-@given(SEEDS, st.floats(1.0, 20.0), st.sampled_from(ORDERS))
+@given(SEEDS, st.floats(1.0, 20.0), st.sampled_from(ORDERS), STREAMS)
 @settings(max_examples=60, deadline=None)
-def test_costs_are_at_most_mu_times_the_best(seed, mu, order):
+def test_costs_are_at_most_mu_times_the_best(seed, mu, order, streams):
     graph = random_graph(seed, chains=20, edges=250)
     best = costs_between_originals(graph)
-    kept = costs_between_originals(graph, reduced(*graph, mu, order=order).edges)
+    kept = costs_between_originals(graph, reduced(*graph, mu, order=order, streams=streams).edges)
     assert np.all(kept <= mu * best)
     np.testing.assert_array_equal(np.isinf(kept), np.isinf(best))
 
 
-@given(SEEDS, st.sampled_from(MUS), st.sampled_from(ORDERS), st.booleans())
-@settings(max_examples=60, deadline=None)
-def test_passing_over_what_cannot_matter_changes_nothing(seed, mu, order, ties):
-    graph = random_graph(seed, chains=30, edges=400, ties=ties)
-    pruned, whole = (reduced(*graph, mu, order=order, prune=prune) for prune in (True, False))
+@given(SEEDS, st.sampled_from(MUS), STREAMS, st.booleans(), st.sampled_from([400, 1500]))
+@settings(max_examples=100, deadline=None)
+def test_passing_over_what_cannot_matter_changes_nothing(seed, mu, streams, ties, edges):
+    graph = random_graph(seed, clips=4, chains=30, edges=edges, ties=ties)
+    pruned, whole = (reduced(*graph, mu, streams=streams, prune=prune) for prune in (True, False))
     np.testing.assert_array_equal(pruned.nodes, whole.nodes)
     np.testing.assert_array_equal(pruned.edges, whole.edges)
 
@@ -175,7 +188,7 @@ def test_progress_reaches_one_and_an_interruption_passes_through():
     graph, shares = random_graph(2), []
     reduced(*graph, 5.0, progress=shares.append)
     assert shares == sorted(shares)
-    assert (len(shares), shares[-1]) == (graph.originals, 1.0)
+    assert (len(shares), shares[-1]) == (len(rounds_in_order(graph, reduction.STREAMS)), 1.0)
 
     def interrupt(share: float) -> None:
         raise KeyboardInterrupt

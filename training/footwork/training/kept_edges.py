@@ -24,6 +24,7 @@ class KeptEdges(NamedTuple):
         far: by ``base``, what an edge costs elsewhere.  # (dearest base + 1,) T
         into: where the edges into each node start in ``source``.  # (N + 1,)
         source: the node that each edge leaves, by target.  # (E,)
+        cost: its ``base``, by target.  # (E,)
     """
 
     kept: NDArray[np.uint8]
@@ -34,6 +35,7 @@ class KeptEdges(NamedTuple):
     far: NDArray
     into: NDArray[np.int32]
     source: NDArray[np.int32]
+    cost: NDArray[np.uint16]
 
 
 def kept_edges(start: NDArray, target: NDArray, base: NDArray, far: NDArray) -> KeptEdges:
@@ -46,28 +48,33 @@ def kept_edges(start: NDArray, target: NDArray, base: NDArray, far: NDArray) -> 
         far: by ``base``, its cost elsewhere.  # (dearest base + 1,) T
     """
     count = len(start) - 1
-    into = starts(count, target)
+    into, base = starts(count, target), base.astype(np.uint16)
+    source, cost = _backwards(start, target, base, into)
     return KeptEdges(
         kept=np.zeros(count, dtype=np.uint8),
         start=start,
         middle=start[:-1].copy(),
         target=target.astype(np.int32),
-        base=base.astype(np.uint16),
+        base=base,
         far=far,
         into=into,
-        source=_sources(start, target, into),
+        source=source,
+        cost=cost,
     )
 
 
 @numba.njit(cache=True, nogil=True)
-def _sources(start: NDArray, target: NDArray, into: NDArray) -> NDArray[np.int32]:
-    """The source of each edge, by target."""
-    place, source = into.copy(), np.empty(len(target), dtype=np.int32)
+def _backwards(
+    start: NDArray, target: NDArray, base: NDArray, into: NDArray
+) -> tuple[NDArray[np.int32], NDArray[np.uint16]]:
+    """The source and the cost of each edge, by target."""
+    place, source, cost = into.copy(), np.empty(len(target), dtype=np.int32), np.empty(len(target), dtype=np.uint16)
     for node in range(len(start) - 1):
         for at in range(start[node], start[node + 1]):
-            source[place[target[at]]] = node
+            there = place[target[at]]
+            source[there], cost[there] = node, base[at]
             place[target[at]] += 1
-    return source
+    return source, cost
 
 
 @numba.njit(cache=True, nogil=True)
