@@ -33,12 +33,21 @@ def read_until(terminal: int, text: bytes) -> bytes:
     while text not in said:
         assert time.monotonic() < deadline, said
         if select.select([terminal], [], [], 1.0)[0]:
-            said += os.read(terminal, 1 << 16)
+            try:
+                said += os.read(terminal, 1 << 16)
+            except OSError:
+                pytest.fail(f"ended before it said {text}: {said}")
     return said
 
 
 def test_an_interrupted_build_leaves_nothing_behind(tmp_path):
     assert interrupt_build(tmp_path / "b.footwork", b"reading") == (130, "footwork: interrupted")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_interrupted_search_leaves_nothing_behind(tmp_path):
+    options = ("--graph", "well-connected", "--weights", "1", "--pairing", "neighbours")
+    assert interrupt_build(tmp_path / "b.footwork", b"transitions", *options) == (130, "footwork: interrupted")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -1,11 +1,13 @@
 """Motions and options that no graph should be made of, or only a small one: one error that says what, or a result."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from footwork.errors import InputError
+from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
 from footwork.training import room
 from footwork.training.build import build_bundle
@@ -21,8 +23,9 @@ class Motions:
     attribution: tuple[str, ...] = ()
 
 
-def built(clips: list[Clip], **options) -> tuple:
-    return build_bundle(Motions(clips), GraphOptions(graph="well-connected", **({"weights": 2} | options)))
+def built(clips: list[Clip], **options: Any) -> tuple[Bundle, dict[str, Any]]:
+    chosen: dict[str, Any] = {"graph": "well-connected", "weights": 2} | options
+    return build_bundle(Motions(clips), GraphOptions(**chosen))
 
 
 def standing(clip: Clip, stands: bool) -> Clip:
@@ -49,7 +52,8 @@ def test_the_same_clip_twice_makes_a_graph():
 
 def test_clips_far_from_the_origin_make_the_same_graph_as_near_it():
     near = built(sample_clips(2, 60))[1]
-    far = built([replace(clip, root_position=clip.root_position + [1e5, 0.0, 0.0]) for clip in sample_clips(2, 60)])[1]
+    there = np.array([1e5, 0.0, 0.0])
+    far = built([replace(clip, root_position=clip.root_position + there) for clip in sample_clips(2, 60)])[1]
     assert (far["nodes"], far["edges"]) == (near["nodes"], near["edges"])
 
 
@@ -67,17 +71,21 @@ def test_no_clips_short_clips_and_other_bodies_are_refused():
 
 
 def test_motion_that_never_meets_itself_is_refused():
-    with pytest.raises(InputError, match="threshold: .*walked without end"):
+    with pytest.raises(InputError, match=r"threshold: .*walked without end"):
         built([sample_clip(0, 14)])
 
 
-@pytest.mark.parametrize("threshold", [1e-300, 1e300])
-def test_thresholds_at_the_ends_of_what_is_allowed_end_well(threshold):
-    """Copies of the same pose are alike at any threshold; at a huge one every local minimum is a transition."""
-    try:
-        assert built(sample_clips(2, 40), threshold=threshold)[1]["edges"] > 0
-    except InputError as error:
-        assert "walked without end" in str(error)
+def test_a_huge_threshold_makes_a_transition_of_every_local_minimum():
+    usual, huge = (built(sample_clips(2, 60), threshold=threshold)[1] for threshold in (0.5, 1e300))
+    assert huge["before_reduction"]["nodes"] == usual["before_reduction"]["nodes"]
+    assert huge["before_reduction"]["edges"] > 1.5 * usual["before_reduction"]["edges"]
+
+
+def test_a_tiny_threshold_is_refused_or_finds_the_poses_that_are_the_same():
+    twins = [sample_clip(0, 60), replace(sample_clip(0, 60), name="again")]
+    assert built(twins, threshold=1e-9)[1]["scc_fraction"] > 0.0
+    with pytest.raises(InputError, match=r"threshold: .*walked without end"):
+        built([sample_clip(0, 25)], threshold=1e-9)
 
 
 @pytest.mark.parametrize("mu", [1.0, 1e9])
