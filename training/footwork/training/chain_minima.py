@@ -6,17 +6,14 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.window import LENGTH
+from footwork.training.chain_tiles import COLUMNS, STRETCH, Compared, Tile, fill_tile, new_tile, set_rows
 from footwork.training.near_rows import BLOCK, Forest, near_masks
-from footwork.training.pair_windows import PRODUCTS, Standing, pair_cost, pair_products
 from footwork.training.transitions import MIN_GAP
-from footwork.training.windows import frame_products
 
-# Equal windows differ by this much of rounding at most. As nothing between them counts as lower than another, a
-# motion that comes twice has the transitions that exact numbers would give it.
-_NOTHING = 1e-10
-STRETCH = 60  # rows of a chain that are dealt with together: with one before and one after, bits of an integer
-# Stretches that go through the rows near them side by side: they meet the same rows, whose windows are then at hand.
-TOGETHER = 16
+# Near rows of one chain that are further apart than this are dealt with apart. A tile pays for LENGTH - 1 frames
+# around its rows, so that rows between near ones cost no more than another tile does.
+_APART = 8
 
 
 class Rows(NamedTuple):
@@ -26,12 +23,7 @@ class Rows(NamedTuple):
     are such or next to such.  # (R,) each
     """
 
-    frames: NDArray[np.float64]
-    start: NDArray[np.intp]
-    mean: NDArray[np.float64]
-    energy: NDArray[np.float64]
-    weights: NDArray[np.float64]
-    standing: Standing
+    compared: Compared
     node: NDArray[np.intp]
     first: NDArray[np.intp]
     last: NDArray[np.intp]
@@ -40,14 +32,6 @@ class Rows(NamedTuple):
     awake: NDArray[np.bool_]
     sketch: NDArray[np.float32]
     sketch_energy: NDArray[np.float32]
-
-
-class _Band(NamedTuple):
-    """Some rows in a row against three later rows in a row; what concerns row j is kept at j % 3."""
-
-    mask: NDArray[np.int64]  # (3,) bits of the rows near to it
-    cost: NDArray[np.float64]  # (3, STRETCH + 2) s of these
-    products: NDArray[np.float64]  # (3, STRETCH + 2, LENGTH, 3 or PRODUCTS) of the windows' frames
 
 
 @numba.njit(cache=True, nogil=True)
@@ -59,43 +43,35 @@ def minima_of_rows(
     Returns:
         pairs: nodes i < j, sorted by i, then j.  # (n, 2)
         costs: their s.  # (n,)
-        counts: panels of balls and of rows compared with a row, pairs near by their sketches, products of frames.
+        counts: panels of balls and of rows compared with a row, pairs near by their sketches, pairs and products of
+            frames evaluated.  # (5,)
     """
     size = len(rows.node)
-    masks, touched = np.zeros((TOGETHER, size), np.int64), np.zeros((TOGETHER, size // BLOCK + 1), np.bool_)
+    masks, touched = np.zeros(size, np.int64), np.zeros(size // BLOCK + 1, np.bool_)
     front = np.empty((2, 2, max(len(everyone.panels), len(awake.panels))), np.int64)
-    stretches, latest = np.empty((TOGETHER, 3), np.intp), np.empty(TOGETHER, np.intp)
-    near = np.zeros((TOGETHER, 3), np.int64)
-    cost = np.empty((TOGETHER, 3, STRETCH + 2))
-    kinds = PRODUCTS if rows.standing.times.size else 3
-    products = np.empty((TOGETHER, 3, STRETCH + 2, len(rows.weights), kinds))
-    counts = np.zeros(4, np.intp)
+    near = np.empty((size, 2), np.int64)
+    tile, candidates = new_tile(rows.compared), np.empty(((STRETCH + 2) * COLUMNS, 2), np.intp)
+    counts = np.zeros(5, np.intp)
     pairs, costs, total = np.empty((1024, 2), np.int32), np.empty(1024), 0
     while begin < end:
-        begun, count = total, 0
-        while begin < end and count < TOGETHER:
-            stop = min(begin + STRETCH, rows.last[begin] + 1)
-            low, high = max(begin - 1, rows.first[begin]), min(stop, rows.last[begin])
-            stretches[count] = low, begin, stop
-            sleepers, wakers = _bits(low, high, rows.awake)
-            mask, mark = masks[count], touched[count]
-            near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, mask, mark, counts)
-            near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, mask, mark, counts)
-            begin, count = stop, count + 1
-        near[:] = 0
-        latest[:] = -2
-        for block in range(touched.shape[1]):
-            for n in range(count):
-                if touched[n, block]:
-                    touched[n, block] = False
-                    band = _Band(near[n], cost[n], products[n])
-                    latest[n], pairs, costs, total = _sweep(
-                        block, latest[n], stretches[n], rows, masks[n], band, threshold, pairs, costs, total, counts
-                    )
-        for n in range(count):
-            band = _Band(near[n], cost[n], products[n])
-            pairs, costs, total = _decide(stretches[n], latest[n], rows, band, threshold, pairs, costs, total)
+        stop = min(begin + STRETCH, rows.last[begin] + 1)
+        low, high = max(begin - 1, rows.first[begin]), min(stop, rows.last[begin])
+        sleepers, wakers = _bits(low, high, rows.awake)
+        near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, masks, touched, counts)
+        near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, masks, touched, counts)
+        count = _collect(low, rows, masks, touched, near)
+        set_rows(tile, rows.compared, low, high + 1 - low)
+        begun, at = total, 0
+        while at < count:
+            past = _run(near[:count], at, rows)
+            box = _box(low, near[:count], at, past, rows, counts)
+            fill_tile(tile, rows.compared, low, *box)
+            found = _candidates(tile, box, threshold, candidates)
+            ends = begin, stop, near[at, 0], near[past - 1, 0] + 1
+            pairs, costs, total = _append(candidates[:found], box, ends, rows, tile, pairs, costs, total)
+            at = past
         _sort(pairs[begun:total], costs[begun:total])
+        begin = stop
     return pairs[:total].copy(), costs[:total].copy(), counts
 
 
@@ -116,38 +92,20 @@ def _sort(pairs: NDArray, costs: NDArray) -> None:
 
 
 @numba.njit(cache=True, nogil=True)
-def _sweep(
-    block: int,
-    latest: int,
-    stretch: NDArray,
-    rows: Rows,
-    masks: NDArray,
-    band: _Band,
-    threshold: float,
-    pairs: NDArray,
-    costs: NDArray,
-    total: int,
-    counts: NDArray,
-) -> tuple[int, NDArray, NDArray, int]:
-    """Go through the rows of a block that are near to a stretch, in ascending order, and clear them.
-
-    Appends the minima with rows before the last one near, which is returned and comes back as ``latest``.
-    """
-    low = stretch[0]
-    for other in range(block * BLOCK, min((block + 1) * BLOCK, len(masks))):
-        near = _apart(low, other, masks[other], rows)
-        masks[other] = 0
-        if near == 0:
+def _collect(low: int, rows: Rows, masks: NDArray, touched: NDArray, near: NDArray) -> int:
+    """List the near rows in ``near``, ascending, with the bits of those they are near to, and clear the masks."""
+    count = 0
+    for block in range(len(touched)):
+        if not touched[block]:
             continue
-        if other != latest + 1 or other == rows.first[other]:
-            pairs, costs, total = _decide(stretch, latest, rows, band, threshold, pairs, costs, total)
-            band.mask[:] = 0
-        _evaluate(low, other, near, rows, band, counts)
-        if band.mask[(other + 2) % 3]:
-            pairs, costs, total = _decide(stretch, other - 1, rows, band, threshold, pairs, costs, total)
-        latest = other
-        band.mask[(other + 1) % 3] = 0
-    return latest, pairs, costs, total
+        touched[block] = False
+        for other in range(block * BLOCK, min((block + 1) * BLOCK, len(masks))):
+            bits = _apart(low, other, masks[other], rows)
+            masks[other] = 0
+            if bits:
+                near[count, 0], near[count, 1] = other, bits
+                count += 1
+    return count
 
 
 @numba.njit(cache=True, nogil=True)
@@ -160,77 +118,101 @@ def _apart(low: int, other: int, near: int, rows: Rows) -> int:
 
 
 @numba.njit(cache=True, nogil=True)
-def _evaluate(low: int, other: int, near: int, rows: Rows, band: _Band, counts: NDArray) -> None:
-    """s of a row with those near it. Of the windows of (i - 1, j - 1) all frames but one come again in (i, j)."""
-    slot, before = other % 3, (other + 2) % 3
-    length = len(rows.weights)
-    band.mask[slot] = near
-    known = (band.mask[before] << 1) & near
-    bit = 0
-    while near >> bit:
-        if (near >> bit) & 1:
-            own, row = band.products[slot, bit], low + bit
-            begun = 0
-            if (known >> bit) & 1:
-                begun = length - 1
-                own[:begun] = band.products[before, bit - 1, 1:]
-            for k in range(begun, length):
-                _multiply(rows.start[row] + k, rows.start[other] + k, rows, own[k])
-            cost = _cost(own, rows, row, other) if own.shape[1] == 3 else pair_cost(own, rows.weights)
-            band.cost[slot, bit] = cost if cost > _NOTHING else 0.0
-            counts[2] += 1
-            counts[3] += length - begun
-        bit += 1
+def _run(near: NDArray, at: int, rows: Rows) -> int:
+    """Where those end that are dealt with together with near[at]: of one chain, and with a row around few enough."""
+    begun, end = near[at, 0], rows.last[near[at, 0]]
+    past = at + 1
+    while past < len(near):
+        row = near[past, 0]
+        if row > end or row - near[past - 1, 0] > _APART or row - begun > COLUMNS - 3:
+            break
+        past += 1
+    return past
 
 
 @numba.njit(cache=True, nogil=True)
-def _multiply(a: int, b: int, rows: Rows, products: NDArray) -> None:
-    """Products of two frames, under the weights of what stands at them where weights depend on that."""
-    if len(products) == 3:
-        products[0], products[1], products[2] = frame_products(rows.frames, a, b)
-    else:
-        pair_products(rows.frames, rows.standing, a, b, products)
+def _box(low: int, near: NDArray, at: int, past: int, rows: Rows, counts: NDArray) -> tuple[int, int, int, int]:
+    """First row, rows, first column and columns of a run and those next to it that are near too."""
+    bits, column, end = 0, near[at, 0], near[past - 1, 0]
+    for n in range(at, past):
+        bits |= near[n, 1]
+        counts[2] += _set_bits(near[n, 1])
+    chain = rows.first[column]
+    if at > 0 and near[at - 1, 0] == column - 1 and rows.first[column - 1] == chain:
+        column -= 1
+        bits |= near[at - 1, 1]
+    if past < len(near) and near[past, 0] == end + 1 and rows.first[end + 1] == chain:
+        end += 1
+        bits |= near[past, 1]
+    first, count, columns = 0, 0, end + 1 - column
+    while not (bits >> first) & 1:
+        first += 1
+    while bits >> (first + count):
+        count += 1
+    counts[3] += count * columns
+    counts[4] += (count + LENGTH - 1) * (columns + LENGTH - 1)
+    return low + first, count, column, columns
 
 
 @numba.njit(cache=True, nogil=True)
-def _cost(products: NDArray, rows: Rows, i: int, j: int) -> float:
-    """s under fixed weights, in closed form from the products of two windows' frames (conventions.md 1)."""
-    cosine, sine, height = 0.0, 0.0, 0.0
-    for k in range(len(rows.weights)):
-        cosine += rows.weights[k] * products[k, 0]
-        sine += rows.weights[k] * products[k, 1]
-        height += rows.weights[k] * products[k, 2]
-    cosine -= rows.mean[i, 0] * rows.mean[j, 0] + rows.mean[i, 1] * rows.mean[j, 1]
-    sine -= rows.mean[i, 0] * rows.mean[j, 1] - rows.mean[i, 1] * rows.mean[j, 0]
-    ground = rows.energy[i, 0] + rows.energy[j, 0] - 2.0 * np.sqrt(cosine * cosine + sine * sine)
-    return ground + (rows.energy[i, 1] + rows.energy[j, 1] - 2.0 * height)
+def _set_bits(bits: int) -> int:
+    count = 0
+    while bits:
+        bits &= bits - 1
+        count += 1
+    return count
 
 
 @numba.njit(cache=True, nogil=True)
-def _decide(
-    stretch: NDArray,
-    other: int,
+def _candidates(tile: Tile, box: tuple[int, int, int, int], threshold: float, candidates: NDArray) -> int:
+    """Rows and columns of a tile's pairs under the threshold that are lowest among those around them.
+
+    As in training.transitions: of equals the first in reading order counts as the lower one.
+    """
+    _, rows, _, columns = box
+    lowest = np.empty(columns, np.bool_)
+    count = 0
+    for n in range(rows):
+        _mark_lowest(tile.cost[n], tile.cost[n + 1], tile.cost[n + 2], threshold, lowest)
+        for m in range(columns):
+            if lowest[m]:
+                candidates[count, 0], candidates[count, 1] = n, m
+                count += 1
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def _mark_lowest(above: NDArray, own: NDArray, below: NDArray, threshold: float, lowest: NDArray) -> None:
+    # all comparisons are made, so that many pairs can be looked at side by side
+    for m in range(len(lowest)):
+        cost = own[m + 1]
+        before = (above[m] > cost) & (above[m + 1] > cost) & (above[m + 2] > cost) & (own[m] > cost)
+        after = (own[m + 2] >= cost) & (below[m] >= cost) & (below[m + 1] >= cost) & (below[m + 2] >= cost)
+        lowest[m] = before & after & (cost < threshold)
+
+
+@numba.njit(cache=True, nogil=True)
+def _append(
+    candidates: NDArray,
+    box: tuple[int, int, int, int],
+    ends: tuple[int, int, int, int],
     rows: Rows,
-    band: _Band,
-    threshold: float,
+    tile: Tile,
     pairs: NDArray,
     costs: NDArray,
     total: int,
 ) -> tuple[NDArray, NDArray, int]:
-    """Append the minima of a stretch with a row whose next row has been evaluated too."""
-    low, begin, stop = stretch
-    slot = other % 3
-    for row in range(begin, stop):
-        bit = row - low
-        if not (band.mask[slot] >> bit) & 1 or not band.cost[slot, bit] < threshold:
+    """Append those that may be transitions and lie between the two ends of rows and of columns."""
+    for n, m in candidates:
+        row, other = box[0] + n, box[2] + m
+        if not (ends[0] <= row < ends[1] and ends[2] <= other < ends[3] and _wanted(row, other, rows)):
             continue
-        if _wanted(row, other, rows) and _is_minimum(bit, other, band):
-            if total == len(costs):
-                pairs = np.concatenate((pairs, np.empty_like(pairs)))
-                costs = np.concatenate((costs, np.empty_like(costs)))
-            pairs[total, 0], pairs[total, 1] = rows.node[row], rows.node[other]
-            costs[total] = band.cost[slot, bit]
-            total += 1
+        if total == len(costs):
+            pairs = np.concatenate((pairs, np.empty_like(pairs)))
+            costs = np.concatenate((costs, np.empty_like(costs)))
+        pairs[total, 0], pairs[total, 1] = rows.node[row], rows.node[other]
+        costs[total] = tile.cost[n + 1, m + 1]
+        total += 1
     return pairs, costs, total
 
 
@@ -240,17 +222,3 @@ def _wanted(i: int, j: int, rows: Rows) -> bool:
     if rows.node[i] < 0 or rows.node[j] < 0 or (rows.first[i] == rows.first[j] and j - i < MIN_GAP):
         return False
     return (rows.leaves[i] or rows.leaves[j]) and (rows.active[i] or rows.active[j])
-
-
-@numba.njit(cache=True, nogil=True)
-def _is_minimum(bit: int, j: int, band: _Band) -> bool:
-    """As in training.transitions: of equals the first in reading order counts as the lower one."""
-    here = band.cost[j % 3, bit]
-    for a in range(max(bit - 1, 0), bit + 2):
-        for b in range(j - 1, j + 2):
-            if (band.mask[b % 3] >> a) & 1:
-                there = band.cost[b % 3, a]
-                before = a < bit or (a == bit and b < j)
-                if there < here or (before and there == here):
-                    return False
-    return True

@@ -15,6 +15,7 @@ from footwork.errors import InputError
 from footwork.training.backend import run_tasks
 from footwork.training.ball_tree import tree_of
 from footwork.training.chain_minima import Rows, minima_of_rows
+from footwork.training.chain_tiles import Compared
 from footwork.training.chains import Chains
 from footwork.training.near_rows import Forest, forest_of
 from footwork.training.pair_estimate import estimated_pairs, require_room_for_pairs
@@ -79,13 +80,9 @@ def prepared(metric: RowMetric, threshold: float, active: NDArray[np.bool_] | No
     active_rows = (windows.node >= 0) & wanted[windows.node]
     goes_on = np.ones(chains.node_count, dtype=bool)
     goes_on[chains.last_node] = False
+    compared = Compared(windows.frames, windows.start, windows.mean, windows.energy, windows.weights, windows.standing)
     rows = Rows(
-        frames=windows.frames,
-        start=windows.start,
-        mean=windows.mean,
-        energy=windows.energy,
-        weights=windows.weights,
-        standing=windows.standing,
+        compared=compared,
         node=windows.node,
         first=windows.first,
         last=windows.last,
