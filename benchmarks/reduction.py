@@ -18,7 +18,7 @@ from footwork.training.chain_edges import edges_of_chains
 from footwork.training.interpolation import interpolated
 from footwork.training.memory import peak_rss_mb
 from footwork.training.path_cost import UNIT, path_costs
-from footwork.training.reduction import reduced
+from footwork.training.reduction import STREAMS, reduced
 from footwork.training.transition_search import search
 from support.machine import memory_bandwidth
 from support.motions import MOTIONS, ROOT, benchmark_clips
@@ -66,7 +66,7 @@ def main() -> None:
     for one, many in zip(two, graph[2:], strict=True):
         one.flags.writeable = many.flags.writeable  # kernels are compiled for either
     reduced(2, 1, *two, mu)
-    found = reduced(*graph, mu)
+    found, alone = reduced(*graph, mu), reduced(*graph, mu, streams=1)
     baseline = dijkstra_seconds(graph)
     report = {
         "graph": name,
@@ -76,7 +76,9 @@ def main() -> None:
         "originals": graph[1],
         "kept_nodes": len(found.nodes),
         "kept_edges": len(found.edges),
+        "streams": STREAMS,
         "seconds": found.seconds,
+        "one_stream": {"kept_nodes": len(alone.nodes), "kept_edges": len(alone.edges), "seconds": alone.seconds},
         "edges_looked_at": found.looked,
         "share_of_edges_looked_at_by_source": found.looked / graph[1] / len(graph[2]),
         "ns_per_edge": 1e9 * found.seconds / found.looked,

@@ -114,6 +114,20 @@ def test_passing_over_what_cannot_matter_changes_nothing(seed, mu, streams, ties
     np.testing.assert_array_equal(pruned.edges, whole.edges)
 
 
+@pytest.mark.parametrize("seed", [5, 16, 20, 29])
+def test_a_stream_looks_for_paths_to_what_another_found_beyond_its_budgets(seed):
+    # graphs for which keeping the budgets as they were would lose paths
+    graph = random_graph(seed, clips=4, chains=100, edges=1500, longest=40)
+    pruned, whole = (reduced(*graph, 2.0, streams=2, prune=prune) for prune in (True, False))
+    np.testing.assert_array_equal(pruned.edges, whole.edges)
+
+
+def test_streams_side_by_side_find_the_same_every_time():
+    graph = random_graph(5, clips=6, chains=60, edges=900)
+    found = [reduced(*graph, 2.0, streams=3).edges.tolist() for _ in range(5)]
+    assert all(edges == found[0] for edges in found)
+
+
 def test_passing_over_what_cannot_matter_saves_work():
     graph = random_graph(1, clips=20, chains=600, edges=20_000)
     pruned, whole = (reduced(*graph, 5.0, prune=prune) for prune in (True, False))

@@ -25,7 +25,7 @@ def allow(nodes: NDArray, edges: KeptEdges, paths: Paths, shift: int, waiting: N
         edges: the graph.
         paths: labels of this stream's last search, and budgets; both are changed.
         shift: that search's.
-        waiting: room for nodes.  # (N,)
+        waiting: room for a queue of nodes.  # (N + 1,)
         stands: which nodes are in ``waiting``: none, and so again at the end.  # (N,)
     """
     label, budget, into, source = paths.label, paths.budget, edges.into, edges.source
@@ -35,19 +35,19 @@ def allow(nodes: NDArray, edges: KeptEdges, paths: Paths, shift: int, waiting: N
         for at in range(into[node], into[node + 1]):
             if edges.kept[source[at]]:
                 label[node] = min(label[node], label[source[at]] + edges.cost[at])
+    first = last = 0
     for node in nodes:
         wanted = label[node] - shift
-        if wanted <= budget[node]:
-            continue
-        # between kept nodes searches go freely, so that only nodes not kept need to be allowed to lead here
-        count = _allow_before(node, int(wanted), False, edges, label, budget, shift, waiting, stands, 0)
+        if wanted > budget[node]:
+            # between kept nodes searches go freely, so that only nodes not kept need to be allowed to lead here
+            last = _allow_before(node, int(wanted), False, edges, paths, shift, waiting, stands, last)
+            looked += into[node + 1] - into[node]
+    # first come, first served: budgets that rise again would rise far more often the other way round
+    while first != last:
+        node = waiting[first]
+        first, stands[node] = (first + 1) % len(waiting), 0
+        last = _allow_before(node, int(budget[node]), True, edges, paths, shift, waiting, stands, last)
         looked += into[node + 1] - into[node]
-        while count > 0:
-            count -= 1
-            behind = waiting[count]
-            stands[behind] = 0
-            count = _allow_before(behind, int(budget[behind]), True, edges, label, budget, shift, waiting, stands, count)
-            looked += into[behind + 1] - into[behind]
     return int(looked)
 
 
@@ -57,24 +57,26 @@ def _allow_before(
     wanted: int,
     leave: bool,
     edges: KeptEdges,
-    label: NDArray,
-    budget: NDArray,
+    paths: Paths,
     shift: int,
     waiting: NDArray,
     stands: NDArray,
-    count: int,
+    last: int,
 ) -> int:
-    """Raise the budgets of the nodes before one; with ``leave`` those of kept nodes, too. How many wait now."""
+    """Raise the budgets of the nodes before one; with ``leave`` those of kept nodes, too. Where the queue ends now."""
+    label, budget, unknown = paths.label, paths.budget, paths.unknown[0]
     for at in range(edges.into[node], edges.into[node + 1]):
         before = edges.source[at]
         if edges.kept[before] and not leave:
             continue
-        # no budget needs to be above its node's label
-        room = min(wanted - edges.far[edges.cost[at]], label[before] - shift)
+        # what no path is known to reach has no bound, nor has what leads there: so that none rises twice
+        room = unknown if wanted > unknown // 2 else wanted - edges.far[edges.cost[at]]
+        if label[before] < unknown:
+            room = min(room, label[before] - shift)  # no budget needs to be above its node's label
         if room <= budget[before]:
             continue
         budget[before] = room
         if not edges.kept[before] and not stands[before]:
-            waiting[count], stands[before] = before, 1
-            count += 1
-    return count
+            waiting[last], stands[before] = before, 1
+            last = (last + 1) % len(waiting)
+    return last

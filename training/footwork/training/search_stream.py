@@ -53,7 +53,7 @@ class SearchStream:
         self._paths = no_paths(count, edges.far.dtype.type)
         self._queue = bucket_queue(count, self._dearest)
         self._seen, self._before, self._changed, self._new = (np.full(count, -1, dtype=np.int32) for _ in range(4))
-        self._waiting, self._stands = np.empty(count, dtype=np.int32), np.zeros(count, dtype=np.uint8)
+        self._waiting, self._stands = np.empty(count + 1, dtype=np.int32), np.zeros(count, dtype=np.uint8)
         self._done, self._touched = 0, 0
 
     @property
