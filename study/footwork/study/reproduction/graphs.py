@@ -33,16 +33,25 @@ class Graphs:
     Args:
         name: of the set, for progress.
         clips: of one body at 30 frames a second.
-        weights: between two segments of an interpolated pair.
+        weights: between two segments of an interpolated pair, at most where ``hops`` is given.
         tell: told what is being done and the share of it that is done.
         searched_to: threshold to which transitions are sought at once, where lower ones are asked for.
+        hops: where given, pairs have only as many weights as hops under this threshold need.
 
     Attributes:
         stages: what was done, with the seconds that it took.
     """
 
-    def __init__(self, name: str, clips: Sequence[Clip], weights: int, tell: Tell, searched_to: float = 0.0) -> None:
-        self.clips, self.weights, self._searched_to = clips, weights, searched_to
+    def __init__(
+        self,
+        name: str,
+        clips: Sequence[Clip],
+        weights: int,
+        tell: Tell,
+        searched_to: float = 0.0,
+        hops: float | None = None,
+    ) -> None:
+        self.clips, self.weights, self._searched_to, self._hops = clips, weights, searched_to, hops
         self.stages = Stages(lambda stage, share: tell(f"{name}: {stage}", share))
         # the pairs found so far: all under a threshold, which hold those under a lower one
         self._found: tuple[float, Minima] | None = None
@@ -68,7 +77,7 @@ class Graphs:
     def chains(self) -> Chains:
         """Clips and interpolated segments."""
         with self.stages("interpolation") as tell:
-            return interpolated(self.clips, BEHAVIOURS, self.weights, progress=tell)[0]
+            return interpolated(self.clips, BEHAVIOURS, self.weights, threshold=self._hops, progress=tell)[0]
 
     def standard(self, threshold: float) -> FlatGraph:
         """The standard graph."""

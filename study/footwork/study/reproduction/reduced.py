@@ -5,17 +5,12 @@ import numpy as np
 from footwork.motion.graph import MotionGraph
 from footwork.study.reproduction.flat_graph import FlatGraph
 from footwork.study.reproduction.graphs import SIGMA, Graphs, connected_part
-from footwork.study.reproduction.workbench import BUILT_AT, FINE, LARGE, LARGE_BUILT, Workbench
+from footwork.study.reproduction.workbench import BUILT_AT, Workbench
 from footwork.training.chain_graph import graph_of_chains
 from footwork.training.path_cost import path_costs
 from footwork.training.reduction import Reduction, reduced
 
 MU = 5.0  # suboptimality scalar of the graphs that are played
-
-
-def built_weights(name: str) -> int:
-    """Weights between two segments of a set whose graph is reduced and played."""
-    return LARGE_BUILT if name == LARGE else FINE
 
 
 def reduction_of(graphs: Graphs, mu: float) -> Reduction:
@@ -26,16 +21,14 @@ def reduction_of(graphs: Graphs, mu: float) -> Reduction:
         return reduced(chains.node_count, chains.original_count, edges.source, edges.target, base, mu, progress=tell)
 
 
-def reduction(bench: Workbench, name: str, mu: float, weights: int | None = None) -> Reduction:
-    """That of a set's core ranges, with ``built_weights`` where not told."""
-    weights = weights or built_weights(name)
-    return bench.once(("reduction", name, mu, weights), lambda: reduction_of(bench.graphs(name, weights), mu))
+def reduction(bench: Workbench, name: str, mu: float) -> Reduction:
+    """That of a set's core ranges."""
+    return bench.once(("reduction", name, mu), lambda: reduction_of(bench.graphs(name), mu))
 
 
-def reduced_graph(bench: Workbench, name: str, mu: float, weights: int | None = None) -> FlatGraph:
+def reduced_graph(bench: Workbench, name: str, mu: float) -> FlatGraph:
     """A set's well-connected graph after reduction, flat."""
-    weights = weights or built_weights(name)
-    kept, graphs = reduction(bench, name, mu, weights), bench.graphs(name, weights)
+    kept, graphs = reduction(bench, name, mu), bench.graphs(name)
     chains, edges = graphs.chains, graphs.edges(BUILT_AT).some(kept.edges)
     source = np.searchsorted(kept.nodes, edges.source)
     return FlatGraph(
@@ -52,7 +45,7 @@ def well_connected_motion_graph(bench: Workbench, name: str) -> MotionGraph:
     """The largest connected part of a set's well-connected graph, reduced at MU, with poses."""
 
     def make() -> MotionGraph:
-        kept, graphs = reduction(bench, name, MU), bench.graphs(name, built_weights(name))
+        kept, graphs = reduction(bench, name, MU), bench.graphs(name)
         edges = graphs.edges(BUILT_AT).some(kept.edges)
         return connected_part(graph_of_chains(graphs.clips, graphs.chains, kept.nodes, edges, SIGMA))
 

@@ -15,9 +15,8 @@ Progress = Callable[[str, float], None]
 Made = TypeVar("Made")
 MG, WCMG = "MG", "wcMG"  # standard and well-connected graphs, as the paper abbreviates them
 LARGE = "dataset3"  # the set whose well-connected graph takes minutes
-FINE, COARSE = 9, 1  # weights between two segments: of the small sets, and of the large one where thresholds vary
+WEIGHTS = 9  # between two segments: always of the small sets, at most of the large one, which has as many as needed
 BUILT_AT = 0.2  # threshold at which graphs are reduced
-LARGE_BUILT = 1  # weights of the large set there: from COARSE up to FINE, as the search's speed allows
 LARGE_UP_TO = 0.8  # threshold to which the well-connected graph of the large set is built whole
 SMALL_UP_TO = 6.0  # that of the small sets: the highest in the paper's tables
 
@@ -55,10 +54,10 @@ class Workbench:
     @property
     def notes(self) -> list[str]:
         """What every row on well-connected graphs should say of them."""
-        few = f"; those of {LARGE} have {COARSE}, because more take longer than a run should"
+        few = f"; those of {LARGE} have as many of them as hops under the threshold need"
         return [
             "MG is the standard graph, wcMG the well-connected one: interpolated between two segments of which neither "
-            f"lasts over twice as long as the other, with {FINE} weights between them{'' if self.quick else few}.",
+            f"lasts over twice as long as the other, with {WEIGHTS} weights between them{'' if self.quick else few}.",
             *([f"A quick run: the well-connected graph of {LARGE} was left out."] if self.quick else []),
         ]
 
@@ -83,15 +82,15 @@ class Workbench:
         read = [made for made in self._made.values() if isinstance(made, Dataset)]
         return list(dict.fromkeys(line for dataset in read for line in dataset.attribution))
 
-    def graphs(self, name: str, weights: int | None = None) -> Graphs:
-        """The graphs of a set's core ranges, COARSE weights for the large set and FINE for others where not told."""
-        weights = weights or (COARSE if name == LARGE else FINE)
-        up_to = BUILT_AT if name == LARGE else SMALL_UP_TO
+    def graphs(self, name: str, threshold: float = BUILT_AT) -> Graphs:
+        """The graphs of a set's core ranges; those of the large set are others at each threshold."""
+        hops = threshold if name == LARGE else None
+        up_to = threshold if name == LARGE else SMALL_UP_TO
 
         def begin() -> Graphs:
-            return Graphs(name, self.dataset(name).clips, weights, self.tell, searched_to=up_to)
+            return Graphs(name, self.dataset(name).clips, WEIGHTS, self.tell, searched_to=up_to, hops=hops)
 
-        return self.once(("graphs", name, weights), begin)
+        return self.once(("graphs", name, hops), begin)
 
     def wanted(self, kind: str, name: str, threshold: float) -> bool:
         """Whether a graph is built whole in this run."""
@@ -109,16 +108,9 @@ class Workbench:
         """What is measured on a graph, None where this run does not build it."""
         if not self.wanted(kind, name, threshold):
             return None
-        graphs = self.graphs(name)
+        graphs = self.graphs(name) if kind == MG else self.graphs(name, threshold)
         make = graphs.standard if kind == MG else graphs.well_connected
         return self._surveyed(kind, graphs, threshold, make)
-
-    def fine_survey(self) -> Survey | None:
-        """That of the large set at BUILT_AT with LARGE_BUILT weights, None where that is no other graph."""
-        if self.quick or LARGE_BUILT == COARSE:
-            return None
-        graphs = self.graphs(LARGE, LARGE_BUILT)
-        return self._surveyed(WCMG, graphs, BUILT_AT, graphs.well_connected)
 
     def surveys(self, name: str, threshold: float) -> tuple[Survey | None, Survey | None]:
         """Those of the standard and of the well-connected graph."""
@@ -132,7 +124,7 @@ class Workbench:
         return found.share if found else self.once(("share", name, threshold), lambda: self._share(name, threshold))
 
     def _share(self, name: str, threshold: float) -> float:
-        graphs = self.graphs(name)
+        graphs = self.graphs(name, LARGE_UP_TO)
         return graphs.share_beyond(graphs.well_connected(LARGE_UP_TO), threshold)
 
     def _surveyed(self, kind: str, graphs: Graphs, threshold: float, make: Callable[[float], FlatGraph]) -> Survey:

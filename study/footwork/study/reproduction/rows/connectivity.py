@@ -1,7 +1,6 @@
 """How much of the capture each graph connects, by threshold."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from footwork.study.reproduction import zhao_safonova
 from footwork.study.reproduction.charts import STANDARD, WELL, Axis, Series, line_charts
@@ -20,9 +19,8 @@ from footwork.study.reproduction.row import (
     judged,
     unjudged,
 )
-from footwork.study.reproduction.survey import Survey
 from footwork.study.reproduction.words import joined_words
-from footwork.study.reproduction.workbench import BUILT_AT, COARSE, LARGE, LARGE_BUILT, MG, WCMG, Workbench
+from footwork.study.reproduction.workbench import MG, WCMG, Workbench
 
 Shares = Mapping[float, float | None]  # percent by threshold
 Needed = Mapping[str, float | None]  # threshold by graph
@@ -34,16 +32,12 @@ def run(bench: Workbench) -> Result:
     """The share of the captured frames in the largest strongly connected part, over thresholds."""
     shares = {name: {kind: _shares(bench, kind, name) for kind in (WCMG, MG)} for name in SETS}
     needed = {name: {goal: _needed(bench, name, shares[name], goal) for goal in GOALS} for name in SETS}
-    fine = bench.fine_survey()
     tables = [_table(name, shares[name]) for name in SETS]
-    if not bench.quick:
-        tables[SETS.index(LARGE)] = _with_weights(tables[SETS.index(LARGE)], fine)
     return Result(
         judgements=[_monotone(shares), _ahead(shares), *(_ratio(name, needed[name][GOAL]) for name in SETS)],
         tables=[*tables, _needed_table(needed)],
         figures=[_figure(shares)],
-        numbers={name: {**shares[name], "thresholds": needed[name]} for name in SETS}
-        | ({f"{LARGE}, {LARGE_BUILT} weights": {BUILT_AT: 100.0 * fine.share}} if fine else {}),
+        numbers={name: {**shares[name], "thresholds": needed[name]} for name in SETS},
         notes=[
             "The first frames of a clip, before any transition leads into it, and the last ones, after all have left, "
             "are in no part of any graph. Short clips have many of them, so 80 % compares better than 90 %.",
@@ -121,14 +115,6 @@ def _table(name: str, shares: Mapping[str, Shares]) -> Table:
         for at in published[WCMG]
     ]
     return Table(f"{name}: frames in the largest connected part", columns, lines)
-
-
-def _with_weights(table: Table, fine: Survey | None) -> Table:
-    """The large set's table with the number of weights beside each line, and a line for all weights."""
-    lines = [[*line, COARSE] for line in table.rows]
-    if fine:
-        lines.insert(0, [*lines[0][:-2], 100.0 * fine.share, LARGE_BUILT])
-    return replace(table, columns=[*table.columns, Column("weights", "", OURS)], rows=lines)
 
 
 def _needed_table(needed: Mapping[str, Mapping[float, Needed]]) -> Table:

@@ -18,7 +18,7 @@ from footwork.study.reproduction.row import (
 )
 from footwork.study.reproduction.survey import Survey
 from footwork.study.reproduction.words import joined_words
-from footwork.study.reproduction.workbench import BUILT_AT, COARSE, LARGE_BUILT, MG, WCMG, Workbench
+from footwork.study.reproduction.workbench import MG, WCMG, Workbench
 
 SET = "dataset3"
 PUBLISHED_LM = zhao_safonova.MANEUVERABILITY
@@ -38,7 +38,7 @@ def run(bench: Workbench) -> Result:
     }
     return Result(
         judgements=[_falls(kind, times[kind]) for kind in (MG, WCMG)] + [_low_threshold(times), _gain(times)],
-        tables=[_table(found, bench.fine_survey())],
+        tables=[_table(found)],
         figures=[_figure(times)],
         numbers={kind: {at: _numbers(one) for at, one in found[kind].items() if one} for kind in found},
         notes=[
@@ -102,15 +102,12 @@ def _gain(times: dict[str, dict[float, float]]) -> Judgement:
     return judged(claim, gain >= 2.0, reason, Cause.DATA)
 
 
-def _table(found: dict[str, dict[float, Survey | None]], fine: Survey | None) -> Table:
+def _table(found: dict[str, dict[float, Survey | None]]) -> Table:
     columns = [Column("threshold s", digits=1), Column("MG LM", "s", PUBLISHED), Column("wcMG LM", "s", PUBLISHED)]
     columns.append(Column("MG frames", "", PUBLISHED))
     for kind in (MG, WCMG):
         columns += [Column(f"{kind} LM", "s", OURS), Column("each frame", "s", OURS), Column("frames", "", OURS)]
-    columns.append(Column("wcMG weights", "", OURS))
-    lines: list[list[Cell]] = [[at, *_published(at), *_cells(found, at), COARSE] for at in THRESHOLDS]
-    if fine:
-        lines.insert(0, [BUILT_AT, *_published(BUILT_AT), None, None, None, *_cell(fine), LARGE_BUILT])
+    lines: list[list[Cell]] = [[at, *_published(at), *_cells(found, at)] for at in THRESHOLDS]
     return Table(f"Local maneuverability (LM) and captured frames in the largest part, {SET}", columns, lines)
 
 

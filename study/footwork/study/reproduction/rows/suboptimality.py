@@ -8,7 +8,7 @@ from footwork.study.reproduction import zhao_safonova
 from footwork.study.reproduction.charts import WELL, Axis, Series, line_charts
 from footwork.study.reproduction.flat_graph import FlatGraph
 from footwork.study.reproduction.graph_bytes import BytesEach, bytes_each
-from footwork.study.reproduction.reduced import MU, built_weights, reduced_graph, reduction
+from footwork.study.reproduction.reduced import reduced_graph, reduction
 from footwork.study.reproduction.row import (
     OURS,
     PUBLISHED,
@@ -22,7 +22,7 @@ from footwork.study.reproduction.row import (
     Table,
     judged,
 )
-from footwork.study.reproduction.workbench import BUILT_AT, COARSE, FINE, LARGE, Workbench
+from footwork.study.reproduction.workbench import BUILT_AT, LARGE, Workbench
 from footwork.study.transition_times import transition_times
 
 QUICK_SET = "dataset2"
@@ -35,7 +35,6 @@ SLOWER = 1.1  # local maneuverability up to a scalar of 2, against that of the b
 class Reduced:
     """A graph after reduction: sizes, what its largest part can do, and how long reducing took."""
 
-    weights: int
     nodes: int
     edges: int
     frames: int
@@ -47,19 +46,16 @@ class Reduced:
 
 def run(bench: Workbench) -> Result:
     """Reduce one graph with each scalar."""
-    name, weights = (QUICK_SET, FINE) if bench.quick else (LARGE, COARSE)
+    name = QUICK_SET if bench.quick else LARGE
     standard = bench.graphs(name).standard_motion_graph(BUILT_AT)
     each = bytes_each(standard)
-    found = {mu: _reduced(bench, name, mu, weights, each) for mu in SCALARS}
-    # the graph that is played, where it is another than that of the table
-    built = built_weights(name)
-    fine = _reduced(bench, name, MU, built, each) if built != weights else None
+    found = {mu: _reduced(bench, name, mu, each) for mu in SCALARS}
     frames = bench.graphs(name).chains.original_count
     return Result(
         judgements=[_size(found), _slow(found)],
-        tables=[_table(name, found, fine, frames)],
+        tables=[_table(name, found, frames)],
         figures=[_figure(name, found, frames)],
-        numbers={mu: vars(one) for mu, one in found.items()} | ({f"{MU:g}, fine": vars(fine)} if fine else {}),
+        numbers={mu: vars(one) for mu, one in found.items()},
         notes=[
             f"The largest part of the standard graph ({standard.node_count:,} frames) takes "
             f"{each.megabytes(standard.node_count, standard.edge_count):.1f} MB, in single precision. "
@@ -71,18 +67,17 @@ def run(bench: Workbench) -> Result:
     )
 
 
-def _reduced(bench: Workbench, name: str, mu: float, weights: int, each: BytesEach) -> Reduced:
-    whole = reduced_graph(bench, name, mu, weights)
+def _reduced(bench: Workbench, name: str, mu: float, each: BytesEach) -> Reduced:
+    whole = reduced_graph(bench, name, mu)
     part = whole.connected()
     return Reduced(
-        weights=weights,
         nodes=whole.node_count,
         edges=whole.edge_count,
         frames=len(part.frames),
         lm=_maneuverability(part),
         time=transition_times(part.edge_start, part.target, part.frames).mean or 0.0,
         megabytes=each.megabytes(whole.node_count, whole.edge_count),
-        seconds=reduction(bench, name, mu, weights).seconds,
+        seconds=reduction(bench, name, mu).seconds,
     )
 
 
@@ -118,16 +113,13 @@ def _slow(found: dict[float, Reduced]) -> Judgement:
     return judged(claim, holds, reason, Cause.CONVENTION)
 
 
-def _table(name: str, found: dict[float, Reduced], fine: Reduced | None, frames: int) -> Table:
+def _table(name: str, found: dict[float, Reduced], frames: int) -> Table:
     columns = [Column("mu", digits=1)]
     columns += [Column("nodes", "", PUBLISHED), Column("per frame", "", PUBLISHED, 1), Column("LM", "s", PUBLISHED)]
     columns += [Column("size", "MB", PUBLISHED), Column("nodes", "", OURS), Column("edges", "", OURS)]
     columns += [Column("per frame", "", OURS, 1), Column("LM", "s", OURS), Column("way", "s", OURS)]
     columns += [Column("size", "MB", OURS, 1), Column("frames", "", OURS), Column("reduction", "s", OURS, 1)]
-    columns.append(Column("weights", "", OURS))
     lines = [_line(mu, one, frames) for mu, one in found.items()]
-    if fine:
-        lines.append(_line(MU, fine, frames))
     caption = f"Well-connected graph of {name} at {BUILT_AT} after reduction, against {LARGE} of the paper"
     return Table(caption, columns, lines)
 
@@ -136,7 +128,7 @@ def _line(mu: float, one: Reduced, frames: int) -> list[Cell]:
     nodes, lm, megabytes = zhao_safonova.SUBOPTIMALITY[mu]
     published = [nodes, nodes / zhao_safonova.SIZES[LARGE], lm, megabytes]
     ours = [one.nodes, one.edges, one.nodes / frames, one.lm, one.time, one.megabytes, one.frames, one.seconds]
-    return [mu, *published, *ours, one.weights]
+    return [mu, *published, *ours]
 
 
 def _figure(name: str, found: dict[float, Reduced], frames: int) -> Figure:

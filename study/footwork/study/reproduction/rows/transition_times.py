@@ -21,7 +21,7 @@ from footwork.study.reproduction.row import (
 )
 from footwork.study.reproduction.survey import Survey
 from footwork.study.reproduction.trends import Line, fitted
-from footwork.study.reproduction.workbench import BUILT_AT, COARSE, LARGE_BUILT, MG, WCMG, Workbench
+from footwork.study.reproduction.workbench import MG, WCMG, Workbench
 
 SET = "dataset3"
 STANDARD_AT = (0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 2.0, 3.0, 5.0)
@@ -39,14 +39,10 @@ def run(bench: Workbench) -> Result:
     }
     times = {kind: {at: one.times.mean or np.nan for at, one in surveys.items()} for kind, surveys in found.items()}
     fits = {kind: _fit(line) for kind, line in times.items() if len(line) > 2}
-    fine = bench.fine_survey()
-    lines = [[at, *_cells(found[MG].get(at)), *_cells(found[WCMG].get(at)), COARSE] for at in STANDARD_AT]
-    if fine:
-        lines.insert(0, [BUILT_AT, None, None, *_cells(fine), LARGE_BUILT])
+    lines = [[at, *_cells(found[MG].get(at)), *_cells(found[WCMG].get(at))] for at in STANDARD_AT]
     columns = [Column("threshold s", digits=1)]
     for kind in (MG, WCMG):
         columns += [Column(f"{kind} time", "s", OURS), Column(f"{kind} frames", "%", OURS, 1)]
-    columns.append(Column("wcMG weights", "", OURS))
     return Result(
         judgements=[_falls(times), _equal(times), _exponential(fits)],
         tables=[Table(f"Mean shortest way between the captured frames of the largest part of {SET}", columns, lines)],
