@@ -1,5 +1,7 @@
 """Small made-up clips and graphs for tests: smooth random motion of the common body, with a known seed."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +12,18 @@ from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph, captured
 
 STRIDE = 32  # frames in which a sample clip's swing comes round again, so that clips meet themselves
+# left and right foot in contact, phase by phase
+BY_TURNS = ((True, False), (False, True))
+EVERY_WAY = ((True, False), (True, True), (False, True), (False, False))
+
+
+@dataclass
+class SampleMotions:
+    """Clips as a build takes them: with the files they come from and whom to thank."""
+
+    clips: Sequence[Clip]
+    files: Sequence[dict[str, str]] = ()
+    attribution: Sequence[str] = ()
 
 
 def sample_clip(seed: int = 0, frames: int = 120, label: str = "walk", speed: float = 1.2, turn: float = 0.4) -> Clip:
@@ -39,6 +53,11 @@ def sample_clips(count: int = 4, frames: int = 120) -> list[Clip]:
         sample_clip(seed, frames, labels[seed % len(labels)], speed=1.0 + 0.1 * seed, turn=0.6 - 0.4 * seed)
         for seed in range(count)
     ]
+
+
+def stepping(clip: Clip, stance: int, phases: Sequence[tuple[bool, bool]] = BY_TURNS) -> Clip:
+    """The clip with other contacts: its feet go through the phases in turn, ``stance`` frames each."""
+    return replace(clip, contacts=np.array(phases)[np.arange(clip.frame_count) // stance % len(phases)])
 
 
 def ring_graph(nodes: int = 12, turn: float = 0.0, behaviours: tuple[str, ...] = ("stop", "walk")) -> MotionGraph:

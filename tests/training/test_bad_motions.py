@@ -1,6 +1,6 @@
 """Motions and options that no graph should be made of, or only a small one: one error that says what, or a result."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,19 +13,12 @@ from footwork.training import room
 from footwork.training.build import build_bundle
 from footwork.training.connectivity import largest_component
 from footwork.training.graph_options import GraphOptions
-from motion_samples import sample_clip, sample_clips
-
-
-@dataclass
-class Motions:
-    clips: list[Clip]
-    files: tuple[dict[str, str], ...] = ()
-    attribution: tuple[str, ...] = ()
+from motion_samples import SampleMotions, sample_clip, sample_clips
 
 
 def built(clips: list[Clip], **options: Any) -> tuple[Bundle, dict[str, Any]]:
     chosen: dict[str, Any] = {"graph": "well-connected", "weights": 2} | options
-    return build_bundle(Motions(clips), GraphOptions(**chosen))
+    return build_bundle(SampleMotions(clips), GraphOptions(**chosen))
 
 
 def standing(clip: Clip, stands: bool) -> Clip:

@@ -1,28 +1,22 @@
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import pytest
 
 from footwork.errors import InputError
 from footwork.motion.bundle import read_bundle, write_bundle
-from footwork.motion.clip import Clip
 from footwork.motion.task import SteeringTask
 from footwork.training.build import build_bundle
 from footwork.training.connectivity import largest_component
 from footwork.training.graph_options import GraphOptions
-from motion_samples import sample_clip, sample_clips
+from motion_samples import SampleMotions, sample_clip, sample_clips
 
-
-@dataclass
-class Motions:
-    clips: list[Clip]
-    files: tuple[dict[str, str], ...] = ({"file": "sample", "sha256": "1" * 64},)
-    attribution: tuple[str, ...] = ("Made up.",)
+SAMPLES = SampleMotions(sample_clips(4, 80), [{"file": "sample", "sha256": "1" * 64}], ["Made up."])
 
 
 @pytest.fixture(scope="module")
 def built():
-    return build_bundle(Motions(sample_clips(4, 80)), GraphOptions(threshold=1.0))
+    return build_bundle(SAMPLES, GraphOptions(threshold=1.0))
 
 
 def test_the_graph_can_be_walked_without_end(built):
@@ -67,14 +61,14 @@ def test_the_bundle_written_has_the_digest_reported(built, tmp_path):
 
 
 def test_the_same_clips_give_the_same_bundle(built):
-    again, _ = build_bundle(Motions(sample_clips(4, 80)), GraphOptions(threshold=1.0))
+    again, _ = build_bundle(SAMPLES, GraphOptions(threshold=1.0))
     assert again.digest == built[0].digest
 
 
 def test_progress_goes_through_the_stages():
     told: list[tuple[str, float]] = []
     build_bundle(
-        Motions(sample_clips(2, 80)),
+        SampleMotions(sample_clips(2, 80)),
         GraphOptions(threshold=1.0),
         progress=lambda stage, share: told.append((stage, share)),
     )
@@ -87,26 +81,28 @@ def test_progress_goes_through_the_stages():
 @pytest.mark.parametrize("threshold", [0.0, -1.0, float("nan"), float("inf"), 1e999])
 def test_a_threshold_that_is_no_positive_number_is_refused(threshold):
     with pytest.raises(InputError, match="expected a positive number"):
-        build_bundle(Motions(sample_clips(1, 40)), GraphOptions(threshold=threshold))
+        build_bundle(SampleMotions(sample_clips(1, 40)), GraphOptions(threshold=threshold))
 
 
 def test_clips_that_are_missing_or_too_short_are_refused():
     with pytest.raises(InputError, match="no clips"):
-        build_bundle(Motions([]), GraphOptions(threshold=1.0))
+        build_bundle(SampleMotions([]), GraphOptions(threshold=1.0))
     short = replace(sample_clip(0, 40).cut(0, 10), name="short.bvh")
     with pytest.raises(InputError, match=r"short.bvh: 10 frames at 30 Hz, expected at least the 11"):
-        build_bundle(Motions([sample_clip(0, 40), short]), GraphOptions(threshold=1.0))
+        build_bundle(SampleMotions([sample_clip(0, 40), short]), GraphOptions(threshold=1.0))
 
 
 def test_more_frames_than_memory_has_room_for_are_refused():
     long = sample_clip(0, 10_000)
     with pytest.raises(InputError, match=r"motions: 100000000 frames at 30 Hz, expected \d+ at most"):
-        build_bundle(Motions([long] * 10_000), GraphOptions(threshold=1.0))
+        build_bundle(SampleMotions([long] * 10_000), GraphOptions(threshold=1.0))
 
 
 def test_behaviours_that_no_frame_shows_are_named(built):
     assert built[1]["missing_behaviours"] == []
-    _, report = build_bundle(Motions([sample_clip(seed, 80, "idle") for seed in range(2)]), GraphOptions(threshold=1.0))
+    _, report = build_bundle(
+        SampleMotions([sample_clip(seed, 80, "idle") for seed in range(2)]), GraphOptions(threshold=1.0)
+    )
     assert report["missing_behaviours"] == ["walk", "run", "jump"]
 
 
@@ -116,17 +112,19 @@ def test_a_threshold_that_connects_nothing_names_one_that_does():
     with pytest.raises(
         InputError, match=r"no transitions at threshold 1e-05.*threshold of [\d.]+ would connect half"
     ) as caught:
-        build_bundle(Motions([clip.cut(0, 28) for clip in clips]), GraphOptions(threshold=1e-5))
+        build_bundle(SampleMotions([clip.cut(0, 28) for clip in clips]), GraphOptions(threshold=1e-5))
     needed = float(str(caught.value).split("threshold of ")[1].split()[0])
-    _, report = build_bundle(Motions([clip.cut(0, 28) for clip in clips]), GraphOptions(threshold=needed))
+    _, report = build_bundle(SampleMotions([clip.cut(0, 28) for clip in clips]), GraphOptions(threshold=needed))
     assert report["scc_fraction"] >= 0.5
 
 
 def test_clips_that_never_meet_say_so():
     with pytest.raises(InputError, match="nor at any other threshold"):
-        build_bundle(Motions([sample_clip(0, 14)]), GraphOptions(threshold=1.0))
+        build_bundle(SampleMotions([sample_clip(0, 14)]), GraphOptions(threshold=1.0))
 
 
 def test_a_policy_that_does_not_converge_is_refused():
     with pytest.raises(InputError, match="not converged: residual"):
-        build_bundle(Motions(sample_clips(2, 60)), GraphOptions(threshold=1.0), task=SteeringTask(discount=0.999999))
+        build_bundle(
+            SampleMotions(sample_clips(2, 60)), GraphOptions(threshold=1.0), task=SteeringTask(discount=0.999999)
+        )

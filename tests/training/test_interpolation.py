@@ -16,17 +16,10 @@ from footwork.training.dataset import load_clips
 from footwork.training.interpolation import interpolated, poses_of
 from footwork.training.segments import GRAVITY, segments_of
 from jumps import jump_clip
-from motion_samples import sample_clip
+from motion_samples import sample_clip, stepping
 from shared_data import MOTIONS, needs_motions
 
 BEHAVIOURS = ("stop", "walk", "run", "jump")
-
-
-def stepping(seed: int, frames: int, stance: int) -> Clip:
-    """A sample clip that stands on the left and on the right foot by turns, ``stance`` frames each."""
-    clip = sample_clip(seed, frames)
-    left = np.arange(frames) // stance % 2 == 0
-    return replace(clip, contacts=np.stack([left, ~left], axis=1))
 
 
 def moved(clip: Clip, yaw: float, x: float, z: float) -> Clip:
@@ -59,7 +52,7 @@ def centres(clips, chains, chain):
 
 @pytest.fixture(scope="module")
 def walks():
-    clips = [stepping(0, 60, 15), stepping(1, 70, 18)]
+    clips = [stepping(sample_clip(0, 60), 15), stepping(sample_clip(1, 70), 18)]
     return clips, *interpolated(clips, BEHAVIOURS, 3)
 
 
@@ -116,7 +109,7 @@ def test_chains_whose_foot_cannot_stay_are_left_out():
 
 
 def test_near_a_weight_of_one_or_nothing_the_sources_come_back():
-    clips = [stepping(0, 15, 15), stepping(1, 18, 18)]
+    clips = [stepping(sample_clip(0, 15), 15), stepping(sample_clip(1, 18), 18)]
     chains, _ = interpolated(clips, BEHAVIOURS, 99)
     first, last = (np.flatnonzero(chains.chain_weight == w)[-1] for w in (0.99, 0.01))
     apart = misfit(chains.places[:15], chains.places[15:30])
@@ -125,7 +118,7 @@ def test_near_a_weight_of_one_or_nothing_the_sources_come_back():
 
 
 def test_exchanging_the_sources_changes_the_place_alone():
-    clips = [stepping(0, 15, 15), stepping(1, 19, 19)]
+    clips = [stepping(sample_clip(0, 15), 15), stepping(sample_clip(1, 19), 19)]
     one, _ = interpolated(clips, BEHAVIOURS, 4)
     other, _ = interpolated(clips[::-1], BEHAVIOURS, 4)
     for weight in (0.2, 0.4):
@@ -135,7 +128,7 @@ def test_exchanging_the_sources_changes_the_place_alone():
 
 
 def test_where_the_sources_stand_changes_nothing_but_the_place():
-    clips = [stepping(0, 15, 15), stepping(1, 19, 19)]
+    clips = [stepping(sample_clip(0, 15), 15), stepping(sample_clip(1, 19), 19)]
     there = [clips[0], moved(clips[1], 2.0, 5.0, -7.0)]
     one, other = interpolated(clips, BEHAVIOURS, 2)[0], interpolated(there, BEHAVIOURS, 2)[0]
     first = one.first_row[2]
@@ -143,7 +136,7 @@ def test_where_the_sources_stand_changes_nothing_but_the_place():
 
 
 def test_a_segment_and_its_copy_give_the_segment():
-    clip = stepping(0, 16, 16)
+    clip = stepping(sample_clip(0, 16), 16)
     chains, _ = interpolated([clip, moved(clip, -1.0, 3.0, 2.0)], BEHAVIOURS, 3)
     for chain in np.flatnonzero(chains.first != NO_SEGMENT):
         np.testing.assert_allclose(rows_of(chains, chain), chains.places[:16], atol=1e-6)
@@ -170,7 +163,7 @@ def test_standing_feet_move_no_more_than_in_the_sources(walks):
 
 def test_context_goes_on_from_the_chain():
     # the same swings on two ways, so that the sources are always alike
-    near = stepping(0, 64, 16)
+    near = stepping(sample_clip(0, 64), 16)
     clips = [near, moved(replace(near, root_position=near.root_position * [1.2, 1.0, 1.2]), 1.0, 2.0, 3.0)]
     chains, _ = interpolated(clips, BEHAVIOURS, 3)
     captured = np.abs(np.diff(chains.places[:64], axis=0)).max()
@@ -180,7 +173,7 @@ def test_context_goes_on_from_the_chain():
 
 
 def test_context_past_a_clips_end_is_its_end():
-    clips = [stepping(0, 15, 15), stepping(1, 15, 15)]
+    clips = [stepping(sample_clip(0, 15), 15), stepping(sample_clip(1, 15), 15)]
     chains, _ = interpolated(clips, BEHAVIOURS, 1)
     rows = rows_of(chains, 2, context=True)
     np.testing.assert_array_equal(rows[:CONTEXT], np.repeat(rows[[CONTEXT]], CONTEXT, axis=0))
@@ -227,7 +220,10 @@ def test_nodes_know_their_sources(walks):
 
 
 def test_an_interpolated_node_is_called_as_its_heavier_source():
-    clips = [replace(stepping(seed, 15, 15), labels=np.full(15, label)) for seed, label in ((0, "run"), (1, "walk"))]
+    clips = [
+        replace(stepping(sample_clip(seed, 15), 15), labels=np.full(15, label))
+        for seed, label in ((0, "run"), (1, "walk"))
+    ]
     chains, _ = interpolated(clips, BEHAVIOURS, 3)
     names = [chains.labels[chains.label[node]] for node in chains.first_node[2:]]
     assert dict(zip(chains.chain_weight[2:], names, strict=True)) == {0.25: "walk", 0.5: "run", 0.75: "run"}
@@ -235,7 +231,7 @@ def test_an_interpolated_node_is_called_as_its_heavier_source():
 
 
 def test_a_foot_stands_where_both_sources_stand():
-    clips = [stepping(0, 15, 15), stepping(1, 15, 15)]
+    clips = [stepping(sample_clip(0, 15), 15), stepping(sample_clip(1, 15), 15)]
     contacts = clips[1].contacts.copy()
     contacts[5:] = False
     height = clips[1].root_position.copy()
@@ -247,7 +243,7 @@ def test_a_foot_stands_where_both_sources_stand():
 
 
 def test_more_rows_than_memory_has_room_for_are_refused_before_any_is_made(monkeypatch):
-    clips = [stepping(0, 60, 15), stepping(1, 70, 18)]
+    clips = [stepping(sample_clip(0, 60), 15), stepping(sample_clip(1, 70), 18)]
     rows = interpolated(clips, BEHAVIOURS, 4)[0].row_count - 130
     monkeypatch.setattr(room, "available_bytes", lambda: 1500 * rows)
     assert interpolated(clips, BEHAVIOURS, 4)[0].row_count == rows + 130
@@ -257,7 +253,7 @@ def test_more_rows_than_memory_has_room_for_are_refused_before_any_is_made(monke
 
 
 def test_with_a_threshold_pairs_have_as_many_weights_as_hops_need():
-    clips = [stepping(0, 60, 15), stepping(1, 70, 18)]
+    clips = [stepping(sample_clip(0, 60), 15), stepping(sample_clip(1, 70), 18)]
     chains, report = interpolated(clips, BEHAVIOURS, 9, threshold=20.0)
     fixed, _ = interpolated(clips, BEHAVIOURS, 9)
     assert 0.0 < report["weights_a_pair"] < 9.0
@@ -267,7 +263,7 @@ def test_with_a_threshold_pairs_have_as_many_weights_as_hops_need():
 
 
 def test_one_clip_is_paired_within_itself():
-    clip = stepping(0, 60, 15)
+    clip = stepping(sample_clip(0, 60), 15)
     chains, report = interpolated([clip], BEHAVIOURS, 2, "plain")
     assert report["pairs"] == 2
     assert chains.chain_count == 5
@@ -283,7 +279,7 @@ def test_clips_without_contacts_are_one_flight_or_carried_by_low_feet():
 
 def test_progress_is_told_up_to_the_end():
     shares = []
-    interpolated([stepping(0, 60, 15)], BEHAVIOURS, 2, progress=shares.append)
+    interpolated([stepping(sample_clip(0, 60), 15)], BEHAVIOURS, 2, progress=shares.append)
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
 

@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -12,15 +10,13 @@ from footwork.training.nodes import nodes_of
 from footwork.training.row_metric import row_metric
 from footwork.training.standard_graph import standard_graph
 from footwork.training.transitions import Minima, local_minima
-from motion_samples import sample_clips
+from motion_samples import EVERY_WAY, sample_clips, stepping
 
 BEHAVIOURS = ("stop", "walk", "run", "jump")
 
 
 def stepping_clips(count: int, frames: int):
-    foot = np.arange(frames) // 9 % 4
-    contacts = np.stack([foot <= 1, (foot == 1) | (foot == 2)], axis=-1)
-    return [replace(clip, contacts=contacts) for clip in sample_clips(count, frames)]
+    return [stepping(clip, 9, EVERY_WAY) for clip in sample_clips(count, frames)]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -10,15 +10,9 @@ from footwork.motion.metrics import NAMES, fixed_cloud, metric_of
 from footwork.motion.pair_weights import dynamics_weights
 from footwork.training.chains import CONTEXT, chains_of_clips
 from footwork.training.row_metric import contacts_of_rows, row_metric, window_rows
-from motion_samples import sample_clips
+from motion_samples import EVERY_WAY, sample_clips, stepping
 
 BEHAVIOURS = ("stop", "walk", "run", "jump")
-
-
-def stepping_clips(count: int = 3, frames: int = 60):
-    foot = np.arange(frames) // 7 % 4
-    contacts = np.stack([foot <= 1, (foot == 1) | (foot == 2)], axis=-1)
-    return [replace(clip, contacts=contacts) for clip in sample_clips(count, frames)]
 
 
 def with_context(chains):
@@ -33,7 +27,7 @@ def with_context(chains):
 
 @pytest.fixture(scope="module")
 def clips():
-    return stepping_clips()
+    return [stepping(clip, 7, EVERY_WAY) for clip in sample_clips(3, 60)]
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,7 +1,5 @@
 """Builds whose threshold or metric is not the usual one."""
 
-from dataclasses import dataclass, replace
-
 import numpy as np
 import pytest
 
@@ -12,21 +10,13 @@ from footwork.training.build import build_bundle
 from footwork.training.graph_options import METRICS, GraphOptions
 from footwork.training.knee import threshold_at_knee
 from footwork.training.transitions import local_minima
-from motion_samples import sample_clip
-
-
-@dataclass
-class Motions:
-    clips: list[Clip]
-    files: tuple[dict[str, str], ...] = ()
-    attribution: tuple[str, ...] = ()
+from motion_samples import SampleMotions, sample_clip, stepping
 
 
 @pytest.fixture(scope="module")
-def motions() -> Motions:
+def motions() -> SampleMotions:
     clips = [sample_clip(seed, 90, speed=1.0 + 0.13 * seed, turn=0.5 - 0.3 * seed) for seed in range(4)]
-    left = np.arange(90) // 15 % 2 == 0
-    return Motions([replace(clip, contacts=np.stack([left, ~left], axis=1)) for clip in clips])
+    return SampleMotions([stepping(clip, 15) for clip in clips])
 
 
 def test_an_automatic_threshold_is_that_of_the_knee(motions):

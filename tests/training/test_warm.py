@@ -1,7 +1,3 @@
-from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
 import pytest
 
 from footwork.motion.window_costs import window_costs
@@ -12,14 +8,7 @@ from footwork.training.graph_options import GraphOptions
 from footwork.training.transitions import _find
 from footwork.training.value_iteration import _sweep
 from footwork.training.warm import start_warming, warm
-from motion_samples import sample_clips
-
-
-@dataclass
-class Motions:
-    clips: Any
-    files: tuple[dict[str, str], ...] = ()
-    attribution: tuple[str, ...] = ()
+from motion_samples import SampleMotions, sample_clips, stepping
 
 
 @pytest.mark.parametrize(
@@ -34,15 +23,14 @@ def test_after_warming_a_build_compiles_nothing_more(graph, kernels):
     warm(options)
     before = [len(kernel.signatures) for kernel in kernels]
     assert all(before)
-    left = np.arange(70) // 10 % 2 == 0
-    clips = [replace(clip, contacts=np.stack([left, ~left], axis=1)) for clip in sample_clips(3, 70)]
-    build_bundle(Motions(clips), options)
+    clips = [stepping(clip, 10) for clip in sample_clips(3, 70)]
+    build_bundle(SampleMotions(clips), options)
     assert [len(kernel.signatures) for kernel in kernels] == before
 
 
 def test_warming_and_building_go_on_side_by_side():
     thread = start_warming(GraphOptions())
-    motions = Motions(sample_clips(2, 70))
+    motions = SampleMotions(sample_clips(2, 70))
     assert build_bundle(motions, GraphOptions(threshold=1.0))[1]["scc_nodes"] > 0
     thread.join(60)
     assert not thread.is_alive()

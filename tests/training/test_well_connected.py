@@ -1,12 +1,9 @@
 """The well-connected motion graph: what is put together of chains, and what a build of it reports."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
 from footwork.motion import quaternion
-from footwork.motion.clip import Clip
 from footwork.motion.graph import ARRAYS
 from footwork.motion.kinematics import forward
 from footwork.motion.metric import PointCloudMetric
@@ -23,7 +20,7 @@ from footwork.training.nodes import nodes_of
 from footwork.training.standard_graph import standard_graph
 from footwork.training.transition_search import search
 from footwork.training.transitions import local_minima
-from motion_samples import sample_clip
+from motion_samples import SampleMotions, sample_clip, stepping
 from shared_data import MOTIONS, needs_motions
 from toy_graphs import wandering_clip
 
@@ -31,24 +28,9 @@ TASK = SteeringTask()
 THRESHOLD = 1.0
 
 
-@dataclass
-class Motions:
-    clips: list[Clip]
-    files: tuple[dict[str, str], ...] = ()
-    attribution: tuple[str, ...] = ()
-
-
-def stepping(seed: int, frames: int) -> Clip:
-    """A sample clip that stands on one foot and then on the other."""
-    clip = sample_clip(seed, frames)
-    left = np.arange(frames) // 12 % 2 == 0
-    contacts = np.stack([left, ~left], axis=1)
-    return Clip(clip.name, clip.skeleton, clip.fps, clip.root_position, clip.rotations, contacts, clip.labels)
-
-
 @pytest.fixture(scope="module")
 def mixed():
-    clips = [stepping(seed, 50) for seed in range(3)]
+    clips = [stepping(sample_clip(seed, 50), 12) for seed in range(3)]
     chains, _ = interpolated(clips, TASK.behaviours, 2)
     edges = edges_of_chains(chains, search(chains, THRESHOLD), THRESHOLD)
     graph = graph_of_chains(clips, chains, np.arange(chains.node_count), edges, 1.0)
@@ -106,7 +88,7 @@ def test_transitions_lay_the_frame_after_the_like_one_down(mixed):
 
 
 def test_a_build_reports_the_sizes_before_and_after():
-    motions = Motions([stepping(seed, 50) for seed in range(3)])
+    motions = SampleMotions([stepping(sample_clip(seed, 50), 12) for seed in range(3)])
     options = GraphOptions(graph="well-connected", threshold=THRESHOLD, weights=2)
     bundle, report = build_bundle(motions, options)
     again, _ = build_bundle(motions, options)
