@@ -13,8 +13,7 @@ from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.tick import TICK_RATE
 from footwork.study.placing import placed_clip
-
-ROUGHNESS = 5.0  # frames that the roughest transition costs more than a natural step
+from footwork.training.path_cost import ROUGHNESS
 
 
 def path_costs(smoothness: ArrayLike) -> NDArray[np.float64]:
