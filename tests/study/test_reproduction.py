@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from footwork.errors import InputError
-from footwork.study.reproduction import registry, zhao_safonova
+from footwork.study.reproduction import registry, workbench, zhao_safonova
 from footwork.study.reproduction.charts import STANDARD, Axis, Series, line_charts, matrix_panels
 from footwork.study.reproduction.motion_sets import MotionSets
 from footwork.study.reproduction.outcome import Outcome, Status
@@ -32,6 +32,14 @@ ABOUT = {
     "peak_rss_mb": 100.0,
     "attribution": ["thanks to <someone>"],
 }
+
+
+@pytest.fixture(autouse=True, scope="module")
+def few_weights():
+    """Interpolate at two weights rather than nine: seconds rather than minutes."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workbench, "WEIGHTS", 2)
+        yield
 
 
 @pytest.fixture(scope="module")
