@@ -10,9 +10,9 @@ from scipy.sparse.csgraph import dijkstra
 
 from footwork.errors import InputError
 from footwork.training import reduction
+from footwork.training.graph_options import ORDERS
 from footwork.training.path_cost import UNIT
 from footwork.training.reduction import reduced
-from footwork.training.source_order import ORDERS
 from random_graphs import RandomGraph, random_graph
 
 MUS = (1.0, 1.1, 2.0, 5.0, 100.0)

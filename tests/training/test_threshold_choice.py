@@ -6,8 +6,9 @@ import pytest
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.metric import PointCloudMetric
+from footwork.motion.metric_names import NAMES
 from footwork.training.build import build_bundle
-from footwork.training.graph_options import METRICS, GraphOptions
+from footwork.training.graph_options import GraphOptions
 from footwork.training.knee import threshold_at_knee
 from footwork.training.transitions import local_minima
 from motion_samples import SampleMotions, sample_clip, stepping
@@ -30,7 +31,7 @@ def test_an_automatic_threshold_is_that_of_the_knee(motions):
     assert bundle.graph.cost[jumps].max() < knee.threshold
 
 
-@pytest.mark.parametrize("metric", METRICS)
+@pytest.mark.parametrize("metric", NAMES)
 def test_smoothness_is_judged_by_the_uniform_metric_whichever_built_the_graph(motions, metric):
     bundle, _ = build_bundle(motions, GraphOptions(threshold=3.0, metric=metric))
     assert bundle.provenance["options"]["metric"] == metric

@@ -17,12 +17,11 @@ from footwork.motion.clip import Clip
 from footwork.motion.dynamics_metric import DynamicsMetric
 from footwork.motion.kinematics import clip_places
 from footwork.motion.metric import Metric, PointCloudMetric
+from footwork.motion.metric_names import NAMES
 from footwork.motion.pair_weights import dynamics_weights
 from footwork.motion.point_cloud import PointCloud, joint_cloud
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.weight_table import built_in_weights
-
-NAMES = ("uniform", "dynamics", "torso", "joints")
 
 
 def metric_of(name: str, clips: Sequence[Clip]) -> Metric:

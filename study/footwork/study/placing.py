@@ -36,13 +36,25 @@ def placed_poses(
 
 def placed_clip(graph: MotionGraph, nodes: NDArray, steps: ArrayLike, name: str) -> Clip:
     """Nodes (n,) as the frames of a clip, each a planar step (n - 1, 3) on from the one before."""
-    root, rotations = placed_poses(graph, nodes, places_along(steps))
+    return clip_of_poses(graph, nodes, *placed_poses(graph, nodes, places_along(steps)), name)
+
+
+def clip_of_poses(graph: MotionGraph, nodes: ArrayLike, root: ArrayLike, rotations: ArrayLike, name: str) -> Clip:
+    """Poses in the world as a clip, with the contacts and labels of the nodes that they are shown for.
+
+    Args:
+        graph: whose nodes.
+        nodes: one a pose.  # (n,)
+        root: root positions, metres.  # (n, 3)
+        rotations: local rotations.  # (n, J, 4)
+        name: of the clip.
+    """
     return Clip(
         name=name,
         skeleton=graph.skeleton,
         fps=float(TICK_RATE),
-        root_position=root,
-        rotations=rotations,
-        contacts=graph.contacts[nodes],
-        labels=np.array(graph.labels)[graph.label[nodes]],
+        root_position=np.asarray(root, dtype=np.float64),
+        rotations=np.asarray(rotations, dtype=np.float64),
+        contacts=graph.contacts[np.asarray(nodes)],
+        labels=np.array(graph.labels)[graph.label[np.asarray(nodes)]],
     )

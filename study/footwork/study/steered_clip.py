@@ -9,6 +9,7 @@ from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
 from footwork.motion.tick import TICK_RATE
 from footwork.runtime.simulation import Simulation
+from footwork.study.placing import clip_of_poses
 
 
 def steered_clip(bundle: Bundle, orders: Sequence[tuple[float, float, str]]) -> Clip:
@@ -34,12 +35,4 @@ def steered_clip(bundle: Bundle, orders: Sequence[tuple[float, float, str]]) -> 
             nodes.append(int(simulation.world.node[slot]))
     if not nodes:
         raise InputError("no orders of at least one tick, expected some", "orders")
-    return Clip(
-        name="steered",
-        skeleton=graph.skeleton,
-        fps=float(TICK_RATE),
-        root_position=np.array(root, dtype=np.float64),
-        rotations=np.array(rotations, dtype=np.float64),
-        contacts=graph.contacts[nodes],
-        labels=np.array(graph.labels)[graph.label[nodes]],
-    )
+    return clip_of_poses(graph, nodes, root, rotations, "steered")

@@ -6,13 +6,12 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.motion.window import LENGTH
 from footwork.training.chain_tiles import COLUMNS, STRETCH, Compared, Tile, fill_tile, new_tile, set_rows
 from footwork.training.near_rows import BLOCK, Forest, near_masks
 from footwork.training.transitions import MIN_GAP
 
-# Near rows of one chain that are further apart than this are dealt with apart. A tile pays for LENGTH - 1 frames
-# around its rows, so that rows between near ones cost no more than another tile does.
+# Near rows of one chain that are further apart than this are dealt with apart. A tile also pays for the frames around
+# its rows, so that a few rows in between are worth it; how many made no clear difference (3, 8 and 14 were tried).
 _APART = 8
 
 
@@ -37,34 +36,31 @@ class Rows(NamedTuple):
 @numba.njit(cache=True, nogil=True)
 def minima_of_rows(
     begin: int, end: int, rows: Rows, everyone: Forest, awake: Forest, threshold: float
-) -> tuple[NDArray, NDArray, NDArray]:
+) -> tuple[NDArray, NDArray]:
     """Minima of the rows begin..end - 1, whole chains, with later rows.
 
     Returns:
         pairs: nodes i < j, sorted by i, then j.  # (n, 2)
         costs: their s.  # (n,)
-        counts: panels of balls and of rows compared with a row, pairs near by their sketches, pairs and products of
-            frames evaluated.  # (5,)
     """
     size = len(rows.node)
     masks, touched = np.zeros(size, np.int64), np.zeros(size // BLOCK + 1, np.bool_)
     front = np.empty((2, 2, max(len(everyone.panels), len(awake.panels))), np.int64)
     near = np.empty((size, 2), np.int64)
     tile, candidates = new_tile(rows.compared), np.empty(((STRETCH + 2) * COLUMNS, 2), np.intp)
-    counts = np.zeros(5, np.intp)
     pairs, costs, total = np.empty((1024, 2), np.int32), np.empty(1024), 0
     while begin < end:
         stop = min(begin + STRETCH, rows.last[begin] + 1)
         low, high = max(begin - 1, rows.first[begin]), min(stop, rows.last[begin])
         sleepers, wakers = _bits(low, high, rows.awake)
-        near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, masks, touched, counts)
-        near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, masks, touched, counts)
+        near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, masks, touched)
+        near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, masks, touched)
         count = _collect(low, rows, masks, touched, near)
         set_rows(tile, rows.compared, low, high + 1 - low)
         begun, at = total, 0
         while at < count:
             past = _run(near[:count], at, rows)
-            box = _box(low, near[:count], at, past, rows, counts)
+            box = _box(low, near[:count], at, past, rows)
             fill_tile(tile, rows.compared, low, *box)
             found = _candidates(tile, box, threshold, candidates)
             ends = begin, stop, near[at, 0], near[past - 1, 0] + 1
@@ -72,7 +68,7 @@ def minima_of_rows(
             at = past
         _sort(pairs[begun:total], costs[begun:total])
         begin = stop
-    return pairs[:total].copy(), costs[:total].copy(), counts
+    return pairs[:total].copy(), costs[:total].copy()
 
 
 @numba.njit(cache=True, nogil=True)
@@ -131,12 +127,11 @@ def _run(near: NDArray, at: int, rows: Rows) -> int:
 
 
 @numba.njit(cache=True, nogil=True)
-def _box(low: int, near: NDArray, at: int, past: int, rows: Rows, counts: NDArray) -> tuple[int, int, int, int]:
+def _box(low: int, near: NDArray, at: int, past: int, rows: Rows) -> tuple[int, int, int, int]:
     """First row, rows, first column and columns of a run and those next to it that are near too."""
     bits, column, end = 0, near[at, 0], near[past - 1, 0]
     for n in range(at, past):
         bits |= near[n, 1]
-        counts[2] += _set_bits(near[n, 1])
     chain = rows.first[column]
     if at > 0 and near[at - 1, 0] == column - 1 and rows.first[column - 1] == chain:
         column -= 1
@@ -149,18 +144,7 @@ def _box(low: int, near: NDArray, at: int, past: int, rows: Rows, counts: NDArra
         first += 1
     while bits >> (first + count):
         count += 1
-    counts[3] += count * columns
-    counts[4] += (count + LENGTH - 1) * (columns + LENGTH - 1)
     return low + first, count, column, columns
-
-
-@numba.njit(cache=True, nogil=True)
-def _set_bits(bits: int) -> int:
-    count = 0
-    while bits:
-        bits &= bits - 1
-        count += 1
-    return count
 
 
 @numba.njit(cache=True, nogil=True)

@@ -1,8 +1,7 @@
 """s of all pairs of some rows in a row with some rows of one other chain, a tile of pairs at a time.
 
-A frame's products with the frames of the other rows are computed side by side, as many as a processor takes at once;
-of the products that make up a pair's s all but three come again in the pairs around it. What a tile needs fits in the
-cache, and a pair then costs a hundredth of what it does by itself.
+A frame's products with the frames of the other rows are computed side by side, as many as a processor takes at once,
+and serve all pairs whose windows hold it. What a tile needs fits in the cache.
 """
 
 from typing import NamedTuple

@@ -5,9 +5,9 @@ from dataclasses import asdict, dataclass
 from typing import Literal
 
 from footwork.errors import InputError
+from footwork.motion.metric_names import NAMES
 
 GRAPHS = ("standard", "well-connected")
-METRICS = ("uniform", "dynamics", "torso", "joints")
 PAIRINGS = ("plain", "ratio", "neighbours")
 ORDERS = ("frames", "reverse", "random")
 MAX_WEIGHTS = 99
@@ -46,7 +46,7 @@ class GraphOptions:
 
     def __post_init__(self) -> None:
         _require_name(self.graph, GRAPHS, "graph")
-        _require_name(self.metric, METRICS, "metric")
+        _require_name(self.metric, NAMES, "metric")
         _require_name(self.pairing, PAIRINGS, "pairing")
         _require_name(self.order, ORDERS, "order")
         if self.threshold != "auto" and not (math.isfinite(self.threshold) and self.threshold > 0.0):

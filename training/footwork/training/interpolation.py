@@ -13,13 +13,14 @@ from footwork.training.blended_poses import figure_of
 from footwork.training.chain_filling import KEPT, OFF_GRAVITY, SLIDING, Filled, Sources, filled, filled_poses
 from footwork.training.chain_plan import Plan, plan_of
 from footwork.training.chains import CONTEXT, NO_SEGMENT, Chains, chain_parts
+from footwork.training.graph_options import MAX_WEIGHTS
 from footwork.training.nodes import Nodes, nodes_of
 from footwork.training.pairing import pairs_of
 from footwork.training.room import require_room
 from footwork.training.segments import Segments, segments_of
 from footwork.training.source_tracks import Tracks, tracks_of
 from footwork.training.timing import Timing
-from footwork.training.weight_counts import MOST_WEIGHTS, needed_weights, pair_distances, weights_of_pairs
+from footwork.training.weight_counts import needed_weights, pair_distances, weights_of_pairs
 
 # measured: 0.6 kB to interpolate a row, and what the search for transitions holds of it
 _BYTES_PER_ROW = 1500
@@ -52,7 +53,7 @@ def interpolated(
         a report, JSON-able: segments, pairs, chains kept and rejected by reason, nodes, rows and seconds
 
     Raises:
-        InputError: as ``nodes_of``, for an unknown rule, weights outside 1..MOST_WEIGHTS, a body without masses.
+        InputError: as ``nodes_of``, for an unknown rule, weights outside 1..MAX_WEIGHTS, a body without masses.
     """
     began = time.perf_counter()
     nodes = nodes_of(clips, behaviours)
@@ -75,8 +76,8 @@ def _weights(
     segments: Segments, tracks: Tracks, pairs: NDArray[np.intp], most: int, threshold: float | None
 ) -> NDArray[np.intp]:
     """How many weights each pair has.  # (P,)"""
-    if not 1 <= most <= MOST_WEIGHTS:
-        raise InputError(f"{most} weights, expected 1 to {MOST_WEIGHTS}", "interpolation")
+    if not 1 <= most <= MAX_WEIGHTS:
+        raise InputError(f"{most} weights, expected 1 to {MAX_WEIGHTS}", "interpolation")
     if threshold is None:
         return np.full(len(pairs), most)
     move = plan_of(segments, tracks, pairs, np.full(len(pairs), 0.5)).move

@@ -45,7 +45,6 @@ def near_masks(
     front: NDArray,
     masks: NDArray,
     touched: NDArray,
-    counts: NDArray,
 ) -> None:
     """Find what may be under the threshold against some rows in a row, a panel for all of them at a time.
 
@@ -58,7 +57,6 @@ def near_masks(
         front: scratch.  # (2, 2, T)
         masks: by row, gets the bits of the rows that it is near to; only rows above ``begin`` do.  # (R,)
         touched: set for each block of BLOCK rows that got some.  # (R // BLOCK + 1,)
-        counts: increased by how many panels were compared with a row: of balls, of rows.  # (>= 2,)
     """
     bounds, child = np.empty(WIDTH, np.float32), np.empty(WIDTH, np.int64)
     here, there = front[0], front[1]
@@ -70,7 +68,7 @@ def near_masks(
         begun, below, count = forest.level[level], forest.level[max(level - 1, 0)], 0
         for n in range(size):
             panel = here[0, n]
-            counts[0 if level else 1] += _near_members(begin, here[1, n], sketch, energy, forest, panel, bounds, child)
+            _near_members(begin, here[1, n], sketch, energy, forest, panel, bounds, child)
             for v in range(WIDTH):
                 row = forest.highest[panel, v]
                 if child[v] == 0 or row <= begin:
@@ -94,10 +92,10 @@ def _near_members(
     panel: int,
     bounds: NDArray,
     child: NDArray,
-) -> int:
-    """For each member of a panel the bits of the rows that it may be near to; returns how many rows asked."""
+) -> None:
+    """For each member of a panel the bits of the rows that it may be near to."""
     child[:] = 0
-    row, asked = begin, 0
+    row = begin
     while asking:
         if asking & 1:
             own = energy[row] * np.float32(1.0 - SLACK)
@@ -105,7 +103,5 @@ def _near_members(
             bit = 1 << (row - begin)
             for v in range(WIDTH):
                 child[v] |= bit * (bounds[v] < forest.limit[panel, v])
-            asked += 1
         asking >>= 1
         row += 1
-    return asked

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion.angle import wrapped
+from footwork.training.graph_options import PAIRINGS
 from footwork.training.room import require_room
 from footwork.training.segments import Segments
 
-RULES = ("plain", "ratio", "neighbours")
 LARGEST_RATIO = 2.0
 LARGEST_TURN = np.radians(30.0)  # by which the yaw changes of two flights may differ
 _BYTES_PER_PAIR = 100  # while they are listed and sorted
@@ -28,8 +28,8 @@ def pairs_of(segments: Segments, rule: str = "ratio") -> NDArray[np.intp]:
     Raises:
         InputError: for another rule, or more pairs than memory has room for.
     """
-    if rule not in RULES:
-        raise InputError(f"no pairing rule {rule!r}, expected one of {', '.join(RULES)}", "pairing")
+    if rule not in PAIRINGS:
+        raise InputError(f"no pairing rule {rule!r}, expected one of {', '.join(PAIRINGS)}", "pairing")
     keys = [segments.signature]
     if rule == "neighbours":
         keys += [segments.neighbour(-1), segments.neighbour(1)]

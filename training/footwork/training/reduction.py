@@ -21,11 +21,12 @@ from footwork.errors import InputError
 from footwork.motion.arrays import frozen
 from footwork.training.chosen_edges import ChosenEdges
 from footwork.training.edge_order import order_by, starts
+from footwork.training.graph_options import ORDERS
 from footwork.training.kept_edges import keep, kept_edges
 from footwork.training.path_cost import UNIT
 from footwork.training.reachability import between_originals
 from footwork.training.search_stream import Found, SearchStream
-from footwork.training.source_order import ORDERS, dealt, runs_of_originals
+from footwork.training.source_order import dealt, runs_of_originals
 
 STREAMS = 2
 MOST = 1e4  # larger mu count as this: no detour over kept nodes is as long

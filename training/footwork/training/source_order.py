@@ -5,8 +5,6 @@ from numpy.typing import NDArray
 
 from footwork.training.path_cost import UNIT
 
-ORDERS = ("frames", "reverse", "random")
-
 
 def runs_of_originals(
     originals: int, start: NDArray, target: NDArray, base: NDArray, order: str, seed: int
@@ -18,7 +16,7 @@ def runs_of_originals(
         start: where the edges of each node start.  # (N + 1,)
         target: the node each edge leads to.  # (E,)
         base: its path cost; natural edges have UNIT.  # (E,)
-        order: of the clips, one of ORDERS.
+        order: of the clips, one of ``graph_options.ORDERS``.
         seed: for the random order.
     """
     leaving = slice(0, start[originals])

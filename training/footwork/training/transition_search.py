@@ -115,5 +115,5 @@ def _tasks(starts: NDArray[np.intp], rows: int) -> list[tuple[int, int]]:
 
 def _found(
     task: tuple[int, int], rows: Rows, everyone: Forest, awake: Forest, threshold: float
-) -> tuple[NDArray, NDArray, NDArray]:
+) -> tuple[NDArray, NDArray]:
     return minima_of_rows(*task, rows, everyone, awake, threshold)

@@ -8,7 +8,6 @@ from footwork.motion.metric import UNIT
 from footwork.training.segments import Segments
 from footwork.training.source_tracks import Tracks
 
-MOST_WEIGHTS = 99
 _PHASES = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 

@@ -85,7 +85,7 @@ class Graphs:
 
     def well_connected(self, threshold: float) -> FlatGraph:
         """The well-connected graph before reduction."""
-        chains, edges = self.chains, edges_of_chains(self.chains, self.well_minima(threshold), threshold)
+        chains, edges = self.chains, self.edges(threshold)
         return FlatGraph(
             edge_start=np.searchsorted(edges.source, np.arange(chains.node_count + 1)),
             target=edges.target,

@@ -6,11 +6,11 @@ from numpy.typing import NDArray
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places
-from footwork.motion.tick import TICK_RATE
 from footwork.runtime.world import World
 from footwork.study.foot_slide import Slide
 from footwork.study.graph_paths import path_nodes
 from footwork.study.path_quality import slide_by_step
+from footwork.study.placing import clip_of_poses
 
 
 def played_clip(graph: MotionGraph, edges: NDArray[np.int64], *, inertialise: bool) -> Clip:
@@ -28,15 +28,7 @@ def played_clip(graph: MotionGraph, edges: NDArray[np.int64], *, inertialise: bo
         shown_root, shown_rotations = world.show(1.0)
         root.append(shown_root[slot].copy())
         rotations.append(shown_rotations[slot].copy())
-    return Clip(
-        name="played",
-        skeleton=graph.skeleton,
-        fps=float(TICK_RATE),
-        root_position=np.array(root, dtype=np.float64),
-        rotations=np.array(rotations, dtype=np.float64),
-        contacts=graph.contacts[nodes[1:]],
-        labels=np.array(graph.labels)[graph.label[nodes[1:]]],
-    )
+    return clip_of_poses(graph, nodes[1:], root, rotations, "played")
 
 
 def jerkiness(clip: Clip) -> NDArray[np.float64]:

@@ -7,18 +7,18 @@ from footwork.study.reproduction.flat_graph import FlatGraph
 from footwork.study.reproduction.graphs import SIGMA, Graphs, connected_part
 from footwork.study.reproduction.workbench import BUILT_AT, Workbench
 from footwork.training.chain_graph import graph_of_chains
-from footwork.training.path_cost import path_costs
-from footwork.training.reduction import Reduction, reduced
+from footwork.training.graph_options import GraphOptions
+from footwork.training.reduction import Reduction
+from footwork.training.well_connected_recipe import reduction_of as kept_of
 
 MU = 5.0  # suboptimality scalar of the graphs that are played
 
 
 def reduction_of(graphs: Graphs, mu: float) -> Reduction:
     """What of a well-connected graph at BUILT_AT is kept at a suboptimality scalar, as a stage of ``graphs``."""
-    chains, edges = graphs.chains, graphs.edges(BUILT_AT)
+    edges = graphs.edges(BUILT_AT)
     with graphs.stages(f"reduction at {mu:g}") as tell:
-        base = path_costs(edges.cost, SIGMA)
-        return reduced(chains.node_count, chains.original_count, edges.source, edges.target, base, mu, progress=tell)
+        return kept_of(graphs.chains, edges, GraphOptions(graph="well-connected", mu=mu), SIGMA, tell)
 
 
 def reduction(bench: Workbench, name: str, mu: float) -> Reduction:
