@@ -16,10 +16,12 @@ from typing import Any
 
 import numpy as np
 
+from footwork.controllers.controller import Situations
 from footwork.controllers.steering import SteeringController
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.graph import MotionGraph, captured
+from footwork.motion.moves import along_edges, no_moves
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.runtime.warm import warm_kernels
@@ -92,23 +94,22 @@ def measure(graph: MotionGraph, table: PolicyTable, count: int, repeats: int) ->
     for _ in range(count):
         world.spawn(int(random.integers(0, NODES)), *random.uniform(-3.0, 3.0, 3))
     heading, asked = random.uniform(-3.0, 3.0, count), random.integers(0, 4, count).astype(np.int32)
-    chosen = np.zeros(count, dtype=np.int32)
-    edges = [chosen]
+    chosen, moves = no_moves(count), no_moves(count)
+    situations = Situations(np.arange(count), world.node, world.place, heading, asked)
 
     def decide() -> None:
-        edges[0] = wandering_edges(world, random)
+        along_edges(graph, wandering_edges(world, random), moves)
 
     def move() -> None:
         decide()
-        world.step(edges[0])
+        world.step(moves)
 
     for _ in range(2 * TRANSITION_EVERY):
         move()
     poses = np.zeros((count, *graph.rotations.shape[1:]), dtype=np.float32)
-    facing = world.place[:, 2]
     return {
-        "choose": timings(lambda: controller.choose(world.node, facing, heading, asked, chosen), count, repeats, move),
-        "step": timings(lambda: world.step(edges[0]), count, repeats, decide),
+        "choose": timings(lambda: controller.choose(situations, chosen), count, repeats, move),
+        "step": timings(lambda: world.step(moves), count, repeats, decide),
         "show_at_node": timings(lambda: world.show(1.0), count, repeats, move),
         "show_between": timings(lambda: world.show(0.5), count, repeats, move),
         "gather_baseline": timings(
@@ -137,7 +138,7 @@ def main() -> None:
     graph = made_up_graph(random)
     table = made_up_table(graph, random)
     start = time.perf_counter()
-    warm_kernels(graph, table)
+    warm_kernels(SteeringController(graph, table))
     report = {
         "unit": "us per character and tick",
         "processor": platform.processor() or platform.machine(),

@@ -5,11 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from footwork.controllers.controller import Situations
 from footwork.controllers.steering import SteeringController, WrongQuestion
 from footwork.errors import InputError
 from footwork.motion.body import default_body
 from footwork.motion.graph import MotionGraph, captured
 from footwork.motion.lookahead import edge_value
+from footwork.motion.moves import no_moves
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.runtime.world import World
@@ -78,10 +80,10 @@ def walk_towards(heading: float, ticks: int, start: int = STRAIGHT) -> tuple[Wor
     graph = controller().graph
     world, path = World(graph, 1), []
     world.spawn(start, 0.0, 0.0, 0.0)
-    edges = np.zeros(1, dtype=np.int32)
+    asked, moves = np.ones(1, dtype=np.int32), no_moves(1)
     for _ in range(ticks):
-        controller().choose(world.node, world.place[:, 2], np.array([heading]), np.ones(1, dtype=np.int32), edges)
-        world.step(edges)
+        controller().choose(Situations(np.arange(1), world.node, world.place, np.array([heading]), asked), moves)
+        world.step(moves)
         path.append(int(world.node[0]))
     return world, path
 
@@ -109,18 +111,21 @@ def test_there_is_no_dead_zone_within_half_a_bin(degrees):
 def test_many_characters_are_asked_at_once():
     node = np.array([STRAIGHT, STRAIGHT, STRAIGHT, LEFT], dtype=np.int32)
     facing, heading = np.array([3.0, -3.0, 0.5, 0.0]), np.array([-3.0, 3.0, 0.5, 9.0])
-    behaviour, edges = np.array([1, 1, 1, 0], dtype=np.int32), np.zeros(4, dtype=np.int32)
-    controller().choose(node, facing, heading, behaviour, edges)
+    behaviour, moves = np.array([1, 1, 1, 0], dtype=np.int32), no_moves(4)
+    place = np.stack([np.zeros(4), np.zeros(4), facing], axis=-1)
+    controller().choose(Situations(np.arange(4), node, place, heading, behaviour), moves)
     graph = controller().graph
-    assert graph.target[edges].tolist() == [LEFT, RIGHT, STRAIGHT, STAND]
-    assert graph.source[edges].tolist() == node.tolist()
+    assert moves.target.tolist() == [LEFT, RIGHT, STRAIGHT, STAND]
+    assert graph.source[moves.edge].tolist() == node.tolist()
+    assert graph.target[moves.edge].tolist() == moves.target.tolist()
 
 
 def test_questions_out_of_range_are_refused():
-    one, edges = np.zeros(1), np.zeros(1, dtype=np.int32)
+    one, place, moves = np.zeros(1), np.zeros((1, 3)), no_moves(1)
     for node, behaviour, message in [(4, 0, "node 4 of character 0"), (-1, 0, "node -1"), (0, 4, "behaviour 4")]:
+        situations = Situations(np.arange(1), np.array([node]), place, one, np.array([behaviour]))
         with pytest.raises(WrongQuestion, match=message):
-            controller().choose(np.array([node]), one, one, np.array([behaviour]), edges)
+            controller().choose(situations, moves)
 
 
 def test_it_starts_on_a_standing_frame():

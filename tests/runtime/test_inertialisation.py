@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from footwork.motion import quaternion
 from footwork.motion.clip import Clip
+from footwork.motion.moves import moves_along
 from footwork.runtime.inertialisation import decay_weights, ticks_to_settle
 from footwork.runtime.world import World
 from toy_graphs import edge_between, graph_of, homogeneous, wandering_clip
@@ -21,7 +22,7 @@ PATH = [*range(8, 11), *range(FRAMES + 6, FRAMES + 9), *range(4, 8)]
 
 
 def take(world: World, source: int, target: int) -> None:
-    world.step(np.array([edge_between(world.graph, source, target)], dtype=np.int32))
+    world.step(moves_along(world.graph, np.array([edge_between(world.graph, source, target)])))
 
 
 def seen(world: World, fraction: float) -> tuple[np.ndarray, Rotation]:

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from footwork.motion import kinematics, quaternion
-from footwork.runtime.world import NoSuchCharacter, World, WorldError, WorldFull, WrongEdge
+from footwork.motion.moves import LEAP, moves_along, no_moves
+from footwork.runtime.world import NoSuchCharacter, World, WorldError, WorldFull, WrongMove
 from toy_graphs import edge_between, graph_of, homogeneous, planar_places, wandering_clip
 
 CLIPS = [wandering_clip(1), wandering_clip(2)]
@@ -19,7 +20,7 @@ def steps(world: World, path: list[int], slot: int = 0) -> None:
     for source, target in itertools.pairwise(path):
         edges = np.zeros(world.capacity, dtype=np.int32)
         edges[slot] = edge_between(world.graph, source, target)
-        world.step(edges)
+        world.step(moves_along(world.graph, edges))
 
 
 def random_edges(world: World, random: np.random.Generator) -> np.ndarray:
@@ -74,7 +75,7 @@ def test_places_compose_like_homogeneous_matrices(x, z, yaw, seed):
     for _ in range(30):
         edges = random_edges(world, random)
         matrix = matrix @ homogeneous(GRAPH.displacement[edges[0]].astype(float))
-        world.step(edges)
+        world.step(moves_along(GRAPH, edges))
         np.testing.assert_allclose(homogeneous(world.place[0]), matrix, atol=1e-9)
 
 
@@ -95,9 +96,9 @@ def test_many_characters_step_as_each_would_alone():
     random = np.random.default_rng(3)
     for _ in range(60):
         edges = random_edges(together, random)
-        together.step(edges)
+        together.step(moves_along(GRAPH, edges))
         for slot, world in enumerate(alone):
-            world.step(edges[slot : slot + 1])
+            world.step(moves_along(GRAPH, edges[slot : slot + 1]))
         root, rotations = together.show(0.5)
         for slot, world in enumerate(alone):
             alone_root, alone_rotations = world.show(0.5)
@@ -109,12 +110,39 @@ def test_a_wrong_edge_is_named_and_nobody_moves():
     world = World(GRAPH, 2)
     world.spawn(0, 0.0, 0.0, 0.0)
     world.spawn(5, 0.0, 0.0, 0.0)
-    with pytest.raises(WrongEdge, match="character 1 at node 5 was given edge 0, expected 5 to 5"):
-        world.step(np.zeros(2, dtype=np.int32))
+    with pytest.raises(WrongMove, match="character 1 at node 5 was given edge 0, expected 5 to 5"):
+        world.step(moves_along(GRAPH, np.zeros(2, dtype=np.int32)))
     assert world.node.tolist() == [0, 5]
-    for edge in (-1, 1):
-        with pytest.raises(WrongEdge, match=f"character 0 at node 0 was given edge {edge}, expected 0 to 0"):
-            world.step(np.array([edge, 5], dtype=np.int32))
+    with pytest.raises(WrongMove, match="character 0 at node 0 was given edge 1, expected 0 to 0"):
+        world.step(moves_along(GRAPH, np.array([1, 5], dtype=np.int32)))
+
+
+def test_a_move_to_nowhere_is_refused_and_nobody_moves():
+    world, moves = World(GRAPH, 1), moves_along(GRAPH, np.zeros(1, dtype=np.int32))
+    world.spawn(0, 0.0, 0.0, 0.0)
+    moves.target[0] = 2
+    with pytest.raises(WrongMove, match="character 0 at node 0 was sent to node 2, expected 1"):
+        world.step(moves)
+    moves.edge[0], moves.target[0] = LEAP, 2 * FRAMES
+    with pytest.raises(WrongMove, match=f"sent to node {2 * FRAMES}, expected 0 to {2 * FRAMES - 1}"):
+        world.step(moves)
+    moves.target[0], moves.adjustment[0, 2] = 3, np.nan
+    with pytest.raises(WrongMove, match="a place that is not finite"):
+        world.step(moves)
+    assert (world.node[0], world.place[0].tolist()) == (0, [0.0, 0.0, 0.0])
+
+
+@given(coordinate, coordinate, st.floats(-3.1, 3.1), st.integers(0, 2**31))
+@settings(max_examples=20, deadline=None)
+def test_a_leap_ends_where_its_displacement_and_adjustment_lead(x, z, yaw, seed):
+    random, world, moves = np.random.default_rng(seed), World(GRAPH, 1), no_moves(1)
+    world.spawn(4, x, z, yaw)
+    moves.target[0] = FRAMES + 7
+    moves.displacement[0], moves.adjustment[0] = random.uniform(-1, 1, (2, 3))
+    world.step(moves)
+    ahead = homogeneous(moves.displacement[0]) @ homogeneous(moves.adjustment[0])
+    np.testing.assert_allclose(homogeneous(world.place[0]), homogeneous((x, z, yaw)) @ ahead, atol=1e-9)
+    assert (world.node[0], world.edge[0], world.natural[0]) == (FRAMES + 7, LEAP, False)
 
 
 def test_slots_are_reused_and_a_full_world_says_so():

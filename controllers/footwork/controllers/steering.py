@@ -4,9 +4,11 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.controllers.controller import Situations, present_behaviours
 from footwork.errors import FootworkError, InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.lookahead import best_edges
+from footwork.motion.moves import Moves, along_edges
 from footwork.motion.table import PolicyTable
 
 
@@ -48,7 +50,7 @@ class SteeringController:
         self.table = table
         self._headed = table.task.headed
         self._turn = np.ascontiguousarray(graph.displacement[:, 2])
-        self._delta = np.zeros(1)
+        self._delta, self._best = np.zeros(1), np.zeros(1, dtype=np.int32)
 
     @property
     def behaviours(self) -> tuple[str, ...]:
@@ -58,27 +60,23 @@ class SteeringController:
     @property
     def present(self) -> tuple[str, ...]:
         """The behaviours that some frame of the graph shows."""
-        shown = set(self.graph.behaviour.tolist())
-        return tuple(name for index, name in enumerate(self.behaviours) if index in shown)
+        return present_behaviours(self.graph)
 
-    def choose(self, node: NDArray, facing: NDArray, heading: NDArray, behaviour: NDArray, out: NDArray) -> None:
-        """Write the best edge of each of C characters into ``out``.
+    def begin(self, slot: int) -> None:
+        """Nothing: it remembers nothing of a character."""
 
-        Args:
-            node: where each is.  # (C,) int32
-            facing: yaw of each, radians.  # (C,)
-            heading: wanted yaw of each in the world, radians.  # (C,)
-            behaviour: index into ``behaviours`` of what each is asked for.  # (C,) int32
-            out: the edges chosen.  # (C,) int32
+    def choose(self, situations: Situations, moves: Moves) -> None:
+        """Write the best edge of each of C characters into ``moves``.
 
         Raises:
             WrongQuestion: for a node or a behaviour that the table does not have.
         """
+        node, behaviour, count = situations.node, situations.behaviour, len(situations.node)
         self._check(node, self.graph.node_count, "node")
         self._check(behaviour, len(self.behaviours), "behaviour")
-        if len(self._delta) < len(node):
-            self._delta = np.zeros(len(node))
-        delta = np.subtract(heading, facing, out=self._delta[: len(node)])
+        if len(self._delta) < count:
+            self._delta, self._best = np.zeros(count), np.zeros(count, dtype=np.int32)
+        delta = np.subtract(situations.heading, situations.place[:, 2], out=self._delta[:count])
         task = self.table.task
         best_edges(
             node,
@@ -93,8 +91,9 @@ class SteeringController:
             self.graph.behaviour,
             self._turn,
             self.graph.smoothness,
-            out,
+            self._best[:count],
         )
+        along_edges(self.graph, self._best[:count], moves)
 
     def start_node(self, behaviour: str = "stop") -> int:
         """A good node to spawn at: of those that show the behaviour, the one worth most on average over all headings.

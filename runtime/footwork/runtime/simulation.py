@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import Command, Vocabulary
+from footwork.controllers.controller import Controller, Situations
 from footwork.controllers.orders import Orders
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
+from footwork.motion.moves import no_moves
 from footwork.motion.task import ONE_SHOT
 from footwork.runtime.warm import warm_kernels
 from footwork.runtime.world import World
@@ -34,7 +36,7 @@ class PoseFrames:
         behaviour: index into ``Simulation.behaviours``, -1 for none of them.  # (capacity,)
         clip: the source clip of the greater weight, an index into the graph's clips.  # (capacity,)
         source_frame: frame of that clip at 30 Hz.  # (capacity,)
-        transition: whether the edge last taken leaves the captured order.  # (capacity,) bool
+        transition: whether the last move left the captured order.  # (capacity,) bool
     """
 
     root: NDArray[np.float32]
@@ -53,6 +55,7 @@ class Simulation:
         bundle: the graph and its "steering" table.
         capacity: how many characters there is room for.
         inertialise: whether transitions are smoothed.
+        controller: what chooses moves on the bundle's graph; steering by the bundle's table where not given.
 
     Attributes:
         tick: the tick last made, from 0.
@@ -63,12 +66,14 @@ class Simulation:
         InputError: for a bundle without a converged steering table or without a frame of any behaviour.
     """
 
-    def __init__(self, bundle: Bundle, capacity: int, *, inertialise: bool = True) -> None:
+    def __init__(
+        self, bundle: Bundle, capacity: int, *, inertialise: bool = True, controller: Controller | None = None
+    ) -> None:
         graph = bundle.graph
         self.bundle = bundle
         self.tick = 0
         self.world = World(graph, capacity, inertialise=inertialise)
-        self._controller = SteeringController(graph, bundle.table(STEERING))
+        self._controller: Controller = controller or SteeringController(graph, bundle.table(STEERING))
         self.behaviours = self._controller.present
         if not self.behaviours:
             raise InputError("no frame shows any behaviour, expected at least one", graph.where)
@@ -77,10 +82,10 @@ class Simulation:
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._shown_as = self._numbering()
         self._clip_of, self._frame_of = graph.nearest_source
-        self._edges = np.zeros(capacity, dtype=np.int32)
+        self._moves, self._chosen = no_moves(capacity), no_moves(capacity)
         self._who = np.zeros(0, dtype=np.intp)
         self._note_actions()
-        warm_kernels(graph, self._controller.table)
+        warm_kernels(self._controller)
 
     def _numbering(self) -> NDArray[np.int32]:
         """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
@@ -105,6 +110,7 @@ class Simulation:
         idle = _IDLE if _IDLE in self.behaviours else self.behaviours[0]
         start = behaviour or idle
         slot = self.world.spawn(self._start[start], x, z, yaw)
+        self._controller.begin(slot)
         self._orders.begin(slot, yaw, self.vocabulary.index(idle if start in ONE_SHOT else start))
         self._who = np.flatnonzero(self.world.active)
         return slot
@@ -124,14 +130,14 @@ class Simulation:
         self._orders.give(slot, command, int(shown))
 
     def step(self) -> None:
-        """Make one tick: choose an edge for every character and take it."""
-        world, who = self.world, self._who
-        asked = self._orders.at_tick(self.bundle.graph.behaviour[world.node])
-        chosen = np.empty(len(who), dtype=np.int32)
-        facing, heading = world.place[who, 2], self._orders.heading[who]
-        self._controller.choose(world.node[who], facing, heading, asked[who], chosen)
-        self._edges[who] = chosen
-        world.step(self._edges)
+        """Make one tick: choose a move for every character and make it."""
+        world, who, orders = self.world, self._who, self._orders
+        asked = orders.at_tick(self.bundle.graph.behaviour[world.node])
+        chosen = self._chosen.first(len(who))
+        situations = Situations(who, world.node[who], world.place[who], orders.heading[who], asked[who])
+        self._controller.choose(situations, chosen)
+        self._moves.put(who, chosen)
+        world.step(self._moves)
         self._note_actions()
         self.tick += 1
 
@@ -140,7 +146,7 @@ class Simulation:
         graph, node = self.bundle.graph, self.world.node
         self._behaviour = self._shown_as[graph.behaviour[node]]
         self._clip, self._source_frame = self._clip_of[node], self._frame_of[node]
-        self._transition = ~graph.natural[self.world.edge]
+        self._transition = ~self.world.natural
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""

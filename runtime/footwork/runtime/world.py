@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from footwork.errors import FootworkError
 from footwork.motion.graph import MotionGraph
+from footwork.motion.moves import LEAP, Moves
 from footwork.motion.tick import TICK
 from footwork.runtime import posing
 from footwork.runtime.inertialisation import decay, jump, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
 from footwork.runtime.rotation_kernels import turned
 
-NO_EDGE = -1
 HALFLIFE = 0.1
 """Half-life of what inertialisation adds, s (conventions.md 10)."""
 
@@ -31,8 +31,8 @@ class NoSuchCharacter(WorldError):  # noqa: N818
     """A slot was named that holds no character."""
 
 
-class WrongEdge(WorldError):  # noqa: N818
-    """A character was told to take an edge that does not leave from its node."""
+class WrongMove(WorldError):  # noqa: N818
+    """A character was told to take an edge that does not leave from its node, or to move where nothing is."""
 
 
 @numba.njit(cache=True, nogil=True)
@@ -42,36 +42,62 @@ def within_half_turn(angle: float) -> float:
 
 
 @numba.njit(cache=True, nogil=True)
-def first_wrong_edge(active: NDArray, node: NDArray, edges: NDArray, edge_start: NDArray) -> int:
-    """The first active row whose edge does not leave from its node, -1 for none."""
+def first_wrong_move(
+    active: NDArray,
+    node: NDArray,
+    edge: NDArray,
+    target: NDArray,
+    displacement: NDArray,
+    adjustment: NDArray,
+    edge_start: NDArray,
+    graph_target: NDArray,
+) -> int:
+    """The first active row whose move cannot be made, -1 for none; the arguments are those of Moves and the graph."""
     for who in range(active.shape[0]):
-        if active[who] and not edge_start[node[who]] <= edges[who] < edge_start[node[who] + 1]:
+        if not active[who]:
+            continue
+        if not 0 <= target[who] < edge_start.shape[0] - 1:
             return who
+        taken = edge[who]
+        if taken != LEAP and not edge_start[node[who]] <= taken < edge_start[node[who] + 1]:
+            return who
+        if taken != LEAP and graph_target[taken] != target[who]:
+            return who
+        for k in range(3):
+            if not math.isfinite(displacement[who, k] + adjustment[who, k]):
+                return who
     return -1
 
 
 @numba.njit(cache=True, nogil=True)
-def take_edges(active: NDArray, edges: NDArray, target: NDArray, displacement: NDArray, node: NDArray, place: NDArray):
-    """Move all active characters along their edges, in place; yaw is kept within -pi..pi.
+def _carry(place: NDArray, transform: NDArray) -> None:
+    """Take a planar place (3,) through a planar transform (3,), in place; yaw is kept within -pi..pi."""
+    yaw = place[2]
+    x, _, z = turned(math.cos(yaw), math.sin(yaw), (transform[0], 0.0, transform[1]))
+    place[0] += x
+    place[1] += z
+    place[2] = within_half_turn(yaw + transform[2])
+
+
+@numba.njit(cache=True, nogil=True)
+def make_moves(
+    active: NDArray, target: NDArray, displacement: NDArray, adjustment: NDArray, node: NDArray, place: NDArray
+) -> None:
+    """Make the moves of all active characters, in place; yaw is kept within -pi..pi.
 
     Args:
         active: which rows are characters.  # (C,)
-        edges: the edge each takes.  # (C,)
-        target: of the graph.  # (E,)
-        displacement: of the graph.  # (E, 3)
+        target: of the moves.  # (C,)
+        displacement: of the moves.  # (C, 3)
+        adjustment: of the moves.  # (C, 3)
         node: where each is.  # (C,)
         place: planar places (x, z, yaw).  # (C, 3)
     """
     for who in range(active.shape[0]):
-        if not active[who]:
-            continue
-        edge = edges[who]
-        yaw = place[who, 2]
-        x, _, z = turned(math.cos(yaw), math.sin(yaw), (displacement[edge, 0], 0.0, displacement[edge, 1]))
-        place[who, 0] += x
-        place[who, 1] += z
-        place[who, 2] = within_half_turn(yaw + displacement[edge, 2])
-        node[who] = target[edge]
+        if active[who]:
+            _carry(place[who], displacement[who])
+            _carry(place[who], adjustment[who])
+            node[who] = target[who]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -79,7 +105,6 @@ def take_jumps(
     settle_ticks: int,
     ticks_left: NDArray,
     active: NDArray,
-    edges: NDArray,
     natural: NDArray,
     old_node: NDArray,
     old_place: NDArray,
@@ -91,12 +116,12 @@ def take_jumps(
     offsets: NDArray,
     roots: NDArray,
 ) -> None:
-    """``inertialisation.jump`` for all active characters whose edge is a transition; see there for the arrays.
+    """``inertialisation.jump`` for all active characters whose move is not natural; see there for the arrays.
 
     ``ticks_left`` is set to ``settle_ticks`` for them.
     """
     for who in range(active.shape[0]):
-        if active[who] and not natural[edges[who]]:
+        if active[who] and not natural[who]:
             ticks_left[who] = settle_ticks
             jump(
                 who,
@@ -128,7 +153,8 @@ class World:
         active: which slots hold a character.  # (capacity,) bool
         node: where each is on the graph.  # (capacity,) int32
         place: planar place (x, z, yaw), metres and radians, yaw within -pi..pi.  # (capacity, 3) float64
-        edge: the edge last taken, -1 before the first.  # (capacity,) int32
+        edge: the edge last taken, ``LEAP`` where it was none.  # (capacity,) int32
+        natural: whether the last move followed the capture; true before the first.  # (capacity,) bool
 
     Raises:
         WorldError: for a capacity under one or a half-life not above zero.
@@ -147,7 +173,8 @@ class World:
         self.active = np.zeros(capacity, dtype=np.bool_)
         self.node = np.zeros(capacity, dtype=np.int32)
         self.place = np.zeros((capacity, 3))
-        self.edge = np.full(capacity, NO_EDGE, dtype=np.int32)
+        self.edge = np.full(capacity, LEAP, dtype=np.int32)
+        self.natural = np.ones(capacity, dtype=np.bool_)
         self._offsets = offset_rows(capacity, joints)
         self._roots = np.zeros((capacity, 2, 3))
         self._ticks_left = np.zeros(capacity, dtype=np.int32)
@@ -173,7 +200,7 @@ class World:
             raise WorldFull(f"all {self.capacity} characters are taken; remove one first")
         self.active[slot] = True
         self.node[slot] = node
-        self.edge[slot] = NO_EDGE
+        self.edge[slot], self.natural[slot] = LEAP, True
         self.place[slot] = x, z, within_half_turn(yaw)
         self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = 0
         return slot
@@ -204,35 +231,44 @@ class World:
         for vectors in (*self._roots[slot], joint[:VELOCITY], joint[VELOCITY:]):
             vectors[:] = turned(math.cos(turn), math.sin(turn), vectors)
 
-    def step(self, edges: NDArray[np.int32]) -> None:
-        """Advance every active character one tick along the edge chosen for it.
+    def step(self, moves: Moves) -> None:
+        """Advance every active character one tick by the move chosen for it.
 
         Args:
-            edges: the edge of each slot; entries of slots that are not active are ignored.  # (capacity,)
+            moves: a row for each slot; rows of slots that are not active are ignored.  # capacity rows
 
         Raises:
-            WrongEdge: when an edge does not leave from its character's node; nobody has moved then.
+            WrongMove: when an edge does not leave from its character's node or lead to its target, and for a target
+                or a place that is none; nobody has moved then.
         """
         graph = self.graph
-        wrong = first_wrong_edge(self.active, self.node, edges, graph.edge_start)
+        wrong = first_wrong_move(
+            self.active,
+            self.node,
+            moves.edge,
+            moves.target,
+            moves.displacement,
+            moves.adjustment,
+            graph.edge_start,
+            graph.target,
+        )
         if wrong >= 0:
-            self._raise_wrong_edge(wrong, int(edges[wrong]))
+            self._raise_wrong_move(wrong, moves)
         self._old_node[:] = self.node
         self._old_place[:] = self.place
-        take_edges(self.active, edges, graph.target, graph.displacement, self.node, self.place)
-        self.edge[:] = edges
+        make_moves(self.active, moves.target, moves.displacement, moves.adjustment, self.node, self.place)
+        self.edge[:], self.natural[:] = moves.edge, moves.natural
         if self.inertialise:
-            self._carry_over(edges)
+            self._carry_over()
 
-    def _carry_over(self, edges: NDArray[np.int32]) -> None:
+    def _carry_over(self) -> None:
         """Let the offsets decay over the tick that ended, then take the jumps of transitions into them."""
         decay(self._ticks_left, self._offsets, self._roots, TICK, self.halflife)
         take_jumps(
             self._settle_ticks,
             self._ticks_left,
             self.active,
-            edges,
-            self.graph.natural,
+            self.natural,
             self._old_node,
             self._old_place,
             self.node,
@@ -272,10 +308,16 @@ class World:
         if not (0 <= slot < self.capacity and self.active[slot]):
             raise NoSuchCharacter(f"no character {slot}; there are {int(self.active.sum())}")
 
-    def _raise_wrong_edge(self, slot: int, edge: int) -> None:
-        node = int(self.node[slot])
+    def _raise_wrong_move(self, slot: int, moves: Moves) -> None:
+        node, edge, target = int(self.node[slot]), int(moves.edge[slot]), int(moves.target[slot])
         first, end = (int(self.graph.edge_start[node + step]) for step in (0, 1))
-        raise WrongEdge(f"character {slot} at node {node} was given edge {edge}, expected {first} to {end - 1}")
+        if edge != LEAP and not first <= edge < end:
+            raise WrongMove(f"character {slot} at node {node} was given edge {edge}, expected {first} to {end - 1}")
+        wrong_end = edge != LEAP and self.graph.target[edge] != target
+        if wrong_end or not 0 <= target < self.graph.node_count:
+            valid = f"{self.graph.target[edge]}" if edge != LEAP else f"0 to {self.graph.node_count - 1}"
+            raise WrongMove(f"character {slot} at node {node} was sent to node {target}, expected {valid}")
+        raise WrongMove(f"character {slot} at node {node} was sent to a place that is not finite")
 
 
 def _require_finite(x: float, z: float, yaw: float) -> None:

@@ -2,36 +2,20 @@
 
 import time
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.controllers.controller import Controller, Situations
 from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
+from footwork.motion.moves import no_moves
 from footwork.motion.task import BEHAVIOURS
 from footwork.motion.tick import TICK_RATE
 from footwork.runtime.world import World
 from footwork.study.foot_slide import Slide, shown_balls, slide_of_frames
 from footwork.study.measures import TASK, Followed
 from footwork.study.trace import SteeringCommands, Trace, steering_commands
-
-
-class Controller(Protocol):
-    """What a score needs of a controller: ``controllers.steering.SteeringController``, or another of this form."""
-
-    @property
-    def present(self) -> tuple[str, ...]:
-        """The behaviours that some frame shows."""
-        ...
-
-    def start_node(self, behaviour: str = "stop") -> int:
-        """Where to spawn."""
-        ...
-
-    def choose(self, node: NDArray, facing: NDArray, heading: NDArray, behaviour: NDArray, out: NDArray) -> None:
-        """Write the edge that each character shall take into ``out``."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +66,7 @@ def replay(
     asked = _askable(commands.behaviour, graph.behaviours, controller.present)
     world = World(graph, 1, inertialise=inertialise)
     start = "stop" if "stop" in controller.present else controller.present[0]
-    world.spawn(controller.start_node(start), 0.0, 0.0, 0.0)
+    controller.begin(world.spawn(controller.start_node(start), 0.0, 0.0, 0.0))
     ran = _run(world, controller, commands.heading, asked)
     return Replay(trace.name, _followed(graph, commands, ran, sigma), _slide(graph, ran), ran.nanoseconds / 1e3)
 
@@ -107,16 +91,15 @@ def _run(world: World, controller: Controller, heading: NDArray, asked: NDArray)
         np.empty((ticks, joints, 4), np.float32),
         np.empty(ticks, np.int64),
     )
-    edge, clock = np.zeros(1, np.int32), time.perf_counter_ns
-    facing = world.place[:, 2]
+    moves, slots, clock = no_moves(1), np.zeros(1, np.intp), time.perf_counter_ns
     for tick in range(ticks):
         wanted, behaviour = heading[tick : tick + 1], asked[tick : tick + 1]
         began = clock()
-        controller.choose(world.node, facing, wanted, behaviour, edge)
-        world.step(edge)
+        controller.choose(Situations(slots, world.node, world.place, wanted, behaviour), moves)
+        world.step(moves)
         root, rotations = world.show(1.0)
         run.nanoseconds[tick] = clock() - began
-        run.edge[tick], run.facing[tick] = edge[0], facing[0]
+        run.edge[tick], run.facing[tick] = world.edge[0], world.place[0, 2]
         run.root[tick], run.rotations[tick] = root[0], rotations[0]
     return run
 

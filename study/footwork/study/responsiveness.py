@@ -5,13 +5,14 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.controllers.controller import Controller, Situations
 from footwork.motion.angle import wrapped
 from footwork.motion.graph import MotionGraph
+from footwork.motion.moves import no_moves
 from footwork.motion.task import HEADED, ONE_SHOT
 from footwork.motion.tick import TICK
 from footwork.runtime.world import World
 from footwork.study.measures import STEP, Answers
-from footwork.study.replay import Controller
 
 SAMPLES = 64
 PATIENCE = 5.0
@@ -79,14 +80,14 @@ def _until(
     count = len(starts)
     world = World(graph, count, inertialise=False)
     for node in starts:
-        world.spawn(int(node), 0.0, 0.0, 0.0)
-    edges, wanted = np.zeros(count, np.int32), np.full(count, heading)
-    asked = np.full(count, behaviour, np.int32)
+        controller.begin(world.spawn(int(node), 0.0, 0.0, 0.0))
+    moves, slots = no_moves(count), np.arange(count)
+    wanted, asked = np.full(count, heading), np.full(count, behaviour, np.int32)
     ticks = round(PATIENCE / TICK)
     taken = np.full(count, ticks)
     for tick in range(ticks):
-        controller.choose(world.node, world.place[:, 2], wanted, asked, edges)
-        world.step(edges)
+        controller.choose(Situations(slots, world.node, world.place, wanted, asked), moves)
+        world.step(moves)
         taken[done(world) & (taken == ticks)] = tick
         if (taken < ticks).all():
             break

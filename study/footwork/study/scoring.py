@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from footwork.controllers.controller import Controller
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.task import BEHAVIOURS
 from footwork.study import measures
 from footwork.study.foot_slide import Slide, slide_of_capture
-from footwork.study.replay import Controller, Replay, replay
+from footwork.study.replay import Replay, replay
 from footwork.study.trace import Trace
 
 

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places
+from footwork.motion.moves import moves_along
 from footwork.runtime.world import World
 from footwork.study.foot_slide import Slide
 from footwork.study.graph_paths import path_nodes
@@ -24,7 +25,7 @@ def played_clip(graph: MotionGraph, edges: NDArray[np.int64], *, inertialise: bo
     slot = world.spawn(int(nodes[0]), 0.0, 0.0, 0.0)
     root, rotations = [], []
     for edge in edges.astype(np.int32):
-        world.step(np.array([edge], dtype=np.int32))
+        world.step(moves_along(graph, np.array([edge])))
         shown_root, shown_rotations = world.show(1.0)
         root.append(shown_root[slot].copy())
         rotations.append(shown_rotations[slot].copy())

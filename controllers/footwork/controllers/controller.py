@@ -1,0 +1,67 @@
+"""What every controller is: it is shown situations, and fills in moves."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.motion.graph import MotionGraph
+from footwork.motion.moves import Moves
+
+
+@dataclass(frozen=True, eq=False)
+class Situations:
+    """Where each of C characters is before a tick, and what it is asked for.
+
+    Args:
+        slot: which character it is, by which a controller may remember it.  # (C,)
+        node: the frame that it shows.  # (C,) int32
+        place: planar places (x, z, yaw) in the world, metres and radians.  # (C, 3)
+        heading: wanted yaw in the world, radians.  # (C,)
+        behaviour: index into the graph's behaviours of what is asked for.  # (C,) int32
+    """
+
+    slot: NDArray[np.intp]
+    node: NDArray[np.int32]
+    place: NDArray[np.float64]
+    heading: NDArray[np.float64]
+    behaviour: NDArray[np.int32]
+
+
+class Controller(Protocol):
+    """Chooses what characters do next on one motion graph; the world carries it out.
+
+    Whatever it remembers of a character it remembers by slot, and forgets when another begins there.
+    """
+
+    @property
+    def graph(self) -> MotionGraph:
+        """What its characters move on."""
+        ...
+
+    @property
+    def present(self) -> tuple[str, ...]:
+        """The behaviours that some frame shows."""
+        ...
+
+    def start_node(self, behaviour: str = "stop") -> int:
+        """Where to spawn."""
+        ...
+
+    def begin(self, slot: int) -> None:
+        """A new character has come into this slot."""
+        ...
+
+    def choose(self, situations: Situations, moves: Moves) -> None:
+        """Write the move that each character shall make into ``moves``, row for row.
+
+        A call of the same situations after the same calls gives the same moves.
+        """
+        ...
+
+
+def present_behaviours(graph: MotionGraph) -> tuple[str, ...]:
+    """The behaviours that some frame of a graph shows, in the graph's order."""
+    shown = set(graph.behaviour.tolist())
+    return tuple(name for index, name in enumerate(graph.behaviours) if index in shown)
