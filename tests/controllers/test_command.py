@@ -3,8 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from footwork.controllers.command import NONE, Command, UnknownBehaviour, Vocabulary, behaviour_of_keys, heading_of_keys
+from footwork.controllers.command import NONE, Command, UnknownBehaviour, Vocabulary
 from footwork.errors import InputError
+from footwork.motion.keys import behaviour_of_keys, heading_of_keys
 
 ALL = ("stop", "walk", "run", "jump")
 WORDS = Vocabulary(ALL, ALL)

@@ -8,9 +8,9 @@ from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
+from footwork.motion.trace import Trace
 from footwork.study.replay import replay
 from footwork.study.scoring import score
-from footwork.study.trace import Trace
 from motion_samples import ring_graph
 from toy_bundle import toy_bundle
 

@@ -28,8 +28,8 @@ def score(
         json: Print the score as one JSON object.
     """
     from footwork.motion.bundle import read_bundle
+    from footwork.motion.trace import read_trace
     from footwork.study.scoring import score as score_traces
-    from footwork.study.trace import read_trace
 
     paths = _trace_files(traces)
     loaded = read_bundle(bundle)

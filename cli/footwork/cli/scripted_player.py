@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from footwork.controllers.command import heading_of_keys
 from footwork.motion.angle import wrapped
+from footwork.motion.keys import heading_of_keys
 from footwork.protocol.client import Client
 from footwork.protocol.messages import Keys, Pose
 

@@ -12,10 +12,10 @@ from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import no_moves
 from footwork.motion.task import BEHAVIOURS
 from footwork.motion.tick import TICK_RATE
+from footwork.motion.trace import SteeringCommands, Trace, steering_commands
 from footwork.runtime.world import World
 from footwork.study.foot_slide import Slide, shown_balls, slide_of_frames
 from footwork.study.measures import TASK, Followed
-from footwork.study.trace import SteeringCommands, Trace, steering_commands
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,10 +14,10 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.task import BEHAVIOURS
+from footwork.motion.trace import Trace
 from footwork.study import measures
 from footwork.study.foot_slide import Slide, slide_of_capture
 from footwork.study.replay import Replay, replay
-from footwork.study.trace import Trace
 
 
 def score(

@@ -6,7 +6,7 @@ import pytest
 
 from footwork.errors import InputError
 from footwork.motion.task import BEHAVIOURS
-from footwork.study.trace import COLUMNS, Trace, jump_windows, read_trace, steering_commands
+from footwork.motion.trace import COLUMNS, Trace, jump_windows, read_trace, steering_commands
 from shared_data import TRACES, needs_traces
 
 ALL = ("stop", "walk", "run", "jump")

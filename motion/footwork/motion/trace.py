@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from footwork.controllers.command import heading_of_keys
 from footwork.errors import InputError
 from footwork.motion.arrays import frozen
+from footwork.motion.keys import heading_of_keys
 from footwork.motion.task import BEHAVIOURS
 from footwork.motion.textfile import number, read_lines
 from footwork.motion.tick import TICK_RATE
