@@ -4,7 +4,8 @@ import pytest
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
-from footwork.study.foot_slide import slide_of_capture, slide_of_clip, slide_of_frames
+from footwork.motion.kinematics import forward
+from footwork.study.foot_slide import HEEL, slide_of_capture, slide_of_clip, slide_of_frames, soles
 from motion_samples import ring_graph
 
 
@@ -19,6 +20,28 @@ def test_a_body_that_glides_slides_at_its_speed_and_rising_is_no_slide():
     assert slide_of_clip(gliding(0.25, np.ones((20, 2), dtype=bool))).cm_per_second == pytest.approx(25.0)
 
 
+def test_a_foot_that_pivots_on_its_ball_slides_by_half_the_way_of_its_heel():
+    turn = np.radians(6.0)
+    body, yaw = default_body(), turn * np.arange(2)
+    rotations = np.tile(quaternion.IDENTITY, (2, body.joint_count, 1))
+    rotations[:, 0] = quaternion.from_yaw(yaw)
+    ball = forward(body, np.zeros(3), rotations)[0][:, body.feet[0, 1]]
+    standing = np.array([[True, False], [True, False]])
+    slide = slide_of_clip(Clip("pivot", body, 30.0, ball[0] - ball, rotations, standing))
+    assert slide.metres == pytest.approx(HEEL * np.sin(turn / 2))
+
+
+def test_a_foot_that_rolls_onto_its_toes_does_not_slide():
+    body = default_body()
+    places = np.zeros((2, body.joint_count, 3))
+    ankle = body.feet[:, 0]
+    places[0, ankle, 2], places[1, ankle, 2] = -0.13, -0.05
+    places[1, ankle, 1] = 0.12
+    np.testing.assert_allclose(*soles(body, places), atol=1e-12)
+    places[:, ankle, 2] = 0.0
+    np.testing.assert_array_equal(soles(body, places), 0.0)
+
+
 def test_only_steps_between_two_frames_in_contact_count():
     contacts = np.zeros((6, 2), dtype=bool)
     contacts[1:4, 0] = contacts[5, 1] = True
@@ -28,7 +51,7 @@ def test_only_steps_between_two_frames_in_contact_count():
 
 
 def test_without_contact_there_is_no_figure():
-    assert slide_of_frames(np.zeros((4, 2, 3)), np.zeros((4, 2)), 30.0).cm_per_second is None
+    assert slide_of_frames(np.zeros((4, 2, 2, 2)), np.zeros((4, 2)), 30.0).cm_per_second is None
 
 
 def test_the_capture_in_a_graph_slides_as_its_natural_edges_move():

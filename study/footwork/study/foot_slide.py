@@ -1,6 +1,7 @@
-"""Foot slide: how far the balls of the feet move over the ground while they stand, cm per second of contact.
+"""Foot slide: how far the soles of the feet move over the ground while they stand, cm per second of contact.
 
 Source: conventions.md 7 (convention). A step from one frame to the next counts for a foot that is in contact at both.
+A sole is two points, so that a foot that pivots on its ball slides too: the ball, and a point behind it.
 """
 
 from dataclasses import dataclass
@@ -8,11 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from footwork.motion import quaternion
+from footwork.motion.alignment import turn
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places, forward
+from footwork.motion.skeleton import Skeleton
 from footwork.motion.tick import TICK
+
+HEEL = 0.12
+"""Metres from the ball of a foot back to the second point of its sole, over the ground and along the foot."""
+_UPRIGHT = 1e-6  # metres from ankle to ball over the ground, under which a foot points nowhere
 
 
 @dataclass(frozen=True)
@@ -31,30 +37,49 @@ class Slide:
         return 100.0 * self.metres / self.seconds if self.seconds > 0.0 else None
 
 
-def slide_of_steps(start: ArrayLike, end: ArrayLike, standing: ArrayLike, seconds: float) -> Slide:
-    """The slide of steps that all last ``seconds``.
+def soles(skeleton: Skeleton, places: ArrayLike) -> NDArray[np.float64]:
+    """The two points of each sole over the ground, x and z: the ball, and HEEL behind it.
+
+    A foot points from its ankle to its ball; one that stands upright on its ball has both points there.
 
     Args:
-        start: balls of the feet before each step.  # (n, feet, 3)
-        end: after it.  # (n, feet, 3)
+        skeleton: the body.
+        places: of its joints in the world, metres.  # (..., J, 3)
+
+    Returns:
+        Metres.  # (..., feet, 2, 2)
+    """
+    ground = np.asarray(places, dtype=np.float64)[..., [0, 2]]
+    ankle, ball = (ground[..., skeleton.feet[:, part], :] for part in (0, 1))
+    along = ball - ankle
+    length = np.linalg.norm(along, axis=-1, keepdims=True)
+    heel = ball - HEEL * np.where(length > _UPRIGHT, along / np.maximum(length, _UPRIGHT), 0.0)
+    return np.stack([ball, heel], axis=-2)
+
+
+def slide_of_steps(start: ArrayLike, end: ArrayLike, standing: ArrayLike, seconds: float) -> Slide:
+    """The slide of steps that all last ``seconds``: the mean way of a sole's points.
+
+    Args:
+        start: soles before each step.  # (n, feet, 2, 2)
+        end: after it.  # (n, feet, 2, 2)
         standing: whether a foot is in contact before and after.  # (n, feet) bool
         seconds: from start to end.
     """
-    moved = (np.asarray(end) - np.asarray(start))[..., [0, 2]]
+    moved = np.linalg.norm(np.asarray(end) - np.asarray(start), axis=-1).mean(axis=-1)
     standing = np.asarray(standing, dtype=bool)
-    return Slide(float(np.linalg.norm(moved, axis=-1)[standing].sum()), float(standing.sum()) * seconds)
+    return Slide(float(moved[standing].sum()), float(standing.sum()) * seconds)
 
 
-def slide_of_frames(balls: ArrayLike, contacts: ArrayLike, fps: float) -> Slide:
-    """The slide of a run of frames.  # balls (F, feet, 3), contacts (F, feet)"""
-    balls, contacts = np.asarray(balls), np.asarray(contacts, dtype=bool)
-    return slide_of_steps(balls[:-1], balls[1:], contacts[:-1] & contacts[1:], 1.0 / fps)
+def slide_of_frames(soles_of_frames: ArrayLike, contacts: ArrayLike, fps: float) -> Slide:
+    """The slide of a run of frames.  # soles (F, feet, 2, 2), contacts (F, feet)"""
+    points, contacts = np.asarray(soles_of_frames), np.asarray(contacts, dtype=bool)
+    return slide_of_steps(points[:-1], points[1:], contacts[:-1] & contacts[1:], 1.0 / fps)
 
 
 def slide_of_clip(clip: Clip) -> Slide:
     """The slide of a clip with contacts."""
-    balls = clip_places(clip)[0][:, clip.skeleton.feet[:, 1]]
-    return slide_of_frames(balls, clip.contacts, clip.fps)
+    return slide_of_frames(soles(clip.skeleton, clip_places(clip)[0]), clip.contacts, clip.fps)
 
 
 def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None) -> Slide:
@@ -62,14 +87,13 @@ def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None) -> Slid
     meant = graph.original if clips is None else graph.original & np.isin(graph.clip, clips)
     edges = np.flatnonzero(graph.natural & meant[graph.source] & meant[graph.target])
     source, target = graph.source[edges], graph.target[edges]
-    balls = forward(graph.skeleton, graph.root_position, graph.rotations)[0][:, graph.skeleton.feet[:, 1]]
-    step = graph.displacement[edges].astype(np.float64)
-    ahead = quaternion.rotate(quaternion.from_yaw(step[:, None, 2]), balls[target])
-    ahead[..., 0] += step[:, None, 0]
-    ahead[..., 2] += step[:, None, 1]
-    return slide_of_steps(balls[source], ahead, graph.contacts[source] & graph.contacts[target], TICK)
+    here = soles(graph.skeleton, forward(graph.skeleton, graph.root_position, graph.rotations)[0])
+    step = graph.displacement[edges].astype(np.float64)[:, None, None]
+    x, z = turn(here[target][..., 0], here[target][..., 1], step[..., 2])
+    ahead = np.stack([x, z], axis=-1) + step[..., :2]
+    return slide_of_steps(here[source], ahead, graph.contacts[source] & graph.contacts[target], TICK)
 
 
-def shown_balls(graph: MotionGraph, root: NDArray, rotations: NDArray) -> NDArray[np.float64]:
-    """Balls of the feet of poses as the world shows them.  # (F, 3), (F, J, 4) -> (F, feet, 3)"""
-    return forward(graph.skeleton, root, rotations)[0][:, graph.skeleton.feet[:, 1]]
+def shown_soles(graph: MotionGraph, root: NDArray, rotations: NDArray) -> NDArray[np.float64]:
+    """Soles of poses as the world shows them.  # (F, 3), (F, J, 4) -> (F, feet, 2, 2)"""
+    return soles(graph.skeleton, forward(graph.skeleton, root, rotations)[0])

@@ -12,7 +12,7 @@ from footwork.motion.kinematics import clip_places, forward
 from footwork.motion.metric import UNIT, align_windows
 from footwork.motion.tick import TICK
 from footwork.motion.window import RADIUS
-from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_steps
+from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_steps, soles
 from footwork.study.graph_paths import path_clip, path_nodes, path_seconds
 
 _NONE = -1
@@ -56,12 +56,12 @@ def slide_by_step(graph: MotionGraph, edges: NDArray[np.int64]) -> dict[str, Sli
         InputError: as ``path_nodes``.
     """
     clip, nodes = path_clip(graph, edges), path_nodes(graph, edges)
-    balls = clip_places(clip)[0][:, graph.skeleton.feet[:, 1]]
+    points = soles(graph.skeleton, clip_places(clip)[0])
     standing = clip.contacts[:-1] & clip.contacts[1:]
     natural, captured = graph.natural[edges], graph.original[nodes[:-1]] & graph.original[nodes[1:]]
     kinds = {"captured": natural & captured, "interpolated": natural & ~captured, "transitions": ~natural}
     return {
-        name: slide_of_steps(balls[:-1][steps], balls[1:][steps], standing[steps], TICK)
+        name: slide_of_steps(points[:-1][steps], points[1:][steps], standing[steps], TICK)
         for name, steps in kinds.items()
     }
 

@@ -14,7 +14,7 @@ from footwork.motion.task import BEHAVIOURS
 from footwork.motion.tick import TICK_RATE
 from footwork.motion.trace import SteeringCommands, Trace, steering_commands
 from footwork.runtime.world import World
-from footwork.study.foot_slide import Slide, shown_balls, slide_of_frames
+from footwork.study.foot_slide import Slide, shown_soles, slide_of_frames
 from footwork.study.measures import TASK, Followed
 
 
@@ -132,5 +132,5 @@ def _uniform_costs(graph: MotionGraph, edges: NDArray, sigma: float) -> NDArray[
 
 
 def _slide(graph: MotionGraph, run: _Run) -> Slide:
-    balls = shown_balls(graph, run.root, run.rotations)
-    return slide_of_frames(balls, graph.contacts[graph.target[run.edge]], TICK_RATE)
+    points = shown_soles(graph, run.root, run.rotations)
+    return slide_of_frames(points, graph.contacts[graph.target[run.edge]], TICK_RATE)
