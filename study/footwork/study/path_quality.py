@@ -6,16 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion import quaternion
-from footwork.motion.alignment import turn
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places, forward
 from footwork.motion.metric import UNIT, align_windows
 from footwork.motion.tick import TICK
-from footwork.motion.window import RADIUS
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_steps, soles
 from footwork.study.graph_paths import path_clip, path_nodes, path_seconds
+from footwork.study.graph_windows import NONE, GraphWindows, laid
 
-_NONE = -1
 _EDGES_AT_ONCE = 512
 
 
@@ -76,7 +74,7 @@ def pose_jumps(graph: MotionGraph, edges: NDArray[np.int64]) -> NDArray[np.float
     root = graph.root_position[target] - TICK * graph.root_velocity[target].astype(np.float64)
     back = quaternion.from_rotation_vector(-TICK * graph.angular_velocity[target].astype(np.float64))
     came_from = forward(graph.skeleton, root, quaternion.multiply(back, graph.rotations[target]))[0]
-    there = _laid(came_from, graph.displacement[edges].astype(np.float64))
+    there = laid(came_from, graph.displacement[edges].astype(np.float64))
     here = forward(graph.skeleton, graph.root_position[source], graph.rotations[source])[0]
     return np.sqrt(np.mean(np.sum((here - there) ** 2, axis=-1), axis=-1))
 
@@ -88,57 +86,17 @@ def windowed_costs(graph: MotionGraph, edges: NDArray[np.int64]) -> NDArray[np.f
     built the graph was the uniform one. NaN where the graph lacks j or a frame of the two windows, as at the ends of
     clips and of what was left out.  # (E',) -> (E',)
     """
-    before, after, step = _natural_neighbours(graph)
-    source, similar = graph.source[edges], before[graph.target[edges]]
+    windows = GraphWindows(graph)
+    source, similar = graph.source[edges], windows.before[graph.target[edges]]
     costs = np.full(len(edges), np.nan)
-    pairs = np.stack([_windows(source, before, after), _windows(similar, before, after)], axis=1)
-    whole = np.flatnonzero((pairs != _NONE).all(axis=(1, 2)))
+    pairs = np.stack([windows.nodes(source), windows.nodes(similar)], axis=1)
+    whole = np.flatnonzero((pairs != NONE).all(axis=(1, 2)))
     for first in range(0, len(whole), _EDGES_AT_ONCE):
         some = whole[first : first + _EDGES_AT_ONCE]
-        points = _window_points(graph, pairs[some], step)
+        points = windows.points(pairs[some])
         costs[some] = align_windows(points[:, 0], points[:, 1]).square / UNIT**2
     return costs
 
 
 def _worst_and_mean(values: NDArray) -> dict[str, float] | None:
     return {"worst": float(values.max()), "mean": float(values.mean())} if len(values) else None
-
-
-def _natural_neighbours(graph: MotionGraph) -> tuple[NDArray, NDArray, NDArray]:
-    """The node before (N,) and after each (N,) in its motion, -1 for none, and the step to the latter (N, 3)."""
-    edges = np.flatnonzero(graph.natural)
-    source, target = graph.source[edges], graph.target[edges]
-    before, after = (np.full(graph.node_count, _NONE, dtype=np.int64) for _ in range(2))
-    before[target], after[source] = source, target
-    step = np.zeros((graph.node_count, 3))
-    step[source] = graph.displacement[edges]
-    return before, after, step
-
-
-def _windows(nodes: NDArray, before: NDArray, after: NDArray) -> NDArray[np.int64]:
-    """The nodes of each node's window, -1 where there is none.  # (n,) -> (n, LENGTH)"""
-    early, late = [np.asarray(nodes, dtype=np.int64)], []
-    here = early[0]
-    for _ in range(RADIUS):
-        early.append(np.where(early[-1] == _NONE, _NONE, before[early[-1]]))
-        here = np.where(here == _NONE, _NONE, after[here])
-        late.append(here)
-    return np.stack([*early[::-1], *late], axis=1)
-
-
-def _window_points(graph: MotionGraph, windows: NDArray, step: NDArray) -> NDArray[np.float64]:
-    """Joints of whole windows, each in the planar frame of its first node.  # (..., LENGTH) -> (..., LENGTH, J, 3)"""
-    points = forward(graph.skeleton, graph.root_position[windows], graph.rotations[windows])[0]
-    place = np.zeros((*windows.shape[:-1], 3))
-    for at in range(1, windows.shape[-1]):
-        move = step[windows[..., at - 1]]
-        x, z = turn(move[..., 0], move[..., 1], place[..., 2])
-        place = place + np.stack([x, z, move[..., 2]], axis=-1)
-        points[..., at, :, :] = _laid(points[..., at, :, :], place)
-    return points
-
-
-def _laid(points: NDArray, place: NDArray) -> NDArray[np.float64]:
-    """Points (..., J, 3) in a planar frame that lies at a place x, z, yaw (..., 3)."""
-    x, z = turn(points[..., 0], points[..., 2], place[..., 2, None])
-    return np.stack([x + place[..., 0, None], points[..., 1], z + place[..., 1, None]], axis=-1)
