@@ -1,3 +1,4 @@
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -6,7 +7,7 @@ import pytest
 
 from footwork.errors import InputError
 from footwork.motion.task import BEHAVIOURS
-from footwork.motion.trace import COLUMNS, Trace, jump_windows, read_trace, steering_commands
+from footwork.motion.trace import COLUMNS, Trace, askable, jump_windows, read_trace, steering_commands
 from shared_data import TRACES, needs_traces
 
 ALL = ("stop", "walk", "run", "jump")
@@ -119,3 +120,19 @@ def test_recorded_players_have_the_lengths_that_their_provenance_states():
     lengths = {path.name: read_trace(path).ticks for path in TRACES.glob("*.csv")}
     assert lengths["freedoom1_demo1_p1.csv"] == 1531
     assert sum(lengths.values()) == 33506
+
+
+def test_a_trace_knows_the_digest_of_its_file(tmp_path):
+    path = write(tmp_path / "a.csv", GOOD)
+    assert read_trace(path).digest == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_a_character_is_asked_to_go_on_where_it_cannot_do_what_is_asked():
+    asked = np.array([BEHAVIOURS.index(name) for name in ("jump", "walk", "jump", "stop", "jump")])
+    numbered = ("walk", "stop", "jump")
+    for present, given in (
+        (("walk", "stop"), ["stop", "walk", "walk", "stop", "stop"]),
+        (("walk",), ["walk"] * 5),
+        (numbered, ["jump", "walk", "jump", "stop", "jump"]),
+    ):
+        assert [numbered[index] for index in askable(asked, numbered, present)] == given

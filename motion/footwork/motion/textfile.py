@@ -23,6 +23,16 @@ def read_lines(path: str | Path) -> list[bytes]:
     Raises:
         InputError: for a file that cannot be read, is empty, or is longer than ``MAX_BYTES``.
     """
+    return lines_of(read_data(path))
+
+
+def lines_of(data: bytes) -> list[bytes]:
+    """The lines of a file that was read, as ``read_lines`` gives them."""
+    return data.removeprefix(b"\xef\xbb\xbf").splitlines()
+
+
+def read_data(path: str | Path) -> bytes:
+    """The bytes of a file; errors as of ``read_lines``."""
     try:
         with Path(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
@@ -34,7 +44,7 @@ def read_lines(path: str | Path) -> list[bytes]:
         raise InputError(f"is longer than {MAX_BYTES >> 20} MiB, expected one recording", path)
     if not data.strip():
         raise InputError("is empty", path)
-    return data.removeprefix(b"\xef\xbb\xbf").splitlines()
+    return data
 
 
 def words(line: bytes) -> list[str]:

@@ -3,8 +3,9 @@
 Format and convention: traces/PROVENANCE.md.
 """
 
+import hashlib
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from footwork.errors import InputError
 from footwork.motion.arrays import frozen
 from footwork.motion.keys import heading_of_keys
 from footwork.motion.task import BEHAVIOURS
-from footwork.motion.textfile import number, read_lines
+from footwork.motion.textfile import lines_of, number, read_data
 from footwork.motion.tick import TICK_RATE
 
 SOURCE_HZ = 35
@@ -47,6 +48,7 @@ class Trace:
         yaw_delta: turn of the view in this tick, radians, positive left.  # (T,)
         attack: whether attack was held.  # (T,) bool
         use: whether use was held.  # (T,) bool
+        digest: SHA-256 of the file, empty for a trace that was not read from one.
     """
 
     name: str
@@ -56,6 +58,7 @@ class Trace:
     yaw_delta: NDArray[np.float64]
     attack: NDArray[np.bool_]
     use: NDArray[np.bool_]
+    digest: str = ""
 
     @property
     def ticks(self) -> int:
@@ -94,7 +97,8 @@ def read_trace(path: str | Path) -> Trace:
         InputError: naming the line, for missing columns, cells that are no numbers or out of range, ticks that do
             not count up from 0 one by one, and for fewer than two rows.
     """
-    lines = [(place, line) for place, line in enumerate(read_lines(path), 1) if line.strip()]
+    data = read_data(path)
+    lines = [(place, line) for place, line in enumerate(lines_of(data), 1) if line.strip()]
     header = [cell.strip() for cell in lines[0][1].decode("utf-8", errors="replace").split(",")] if lines else []
     missing = [name for name in COLUMNS if name not in header]
     if missing:
@@ -113,6 +117,7 @@ def read_trace(path: str | Path) -> Trace:
         yaw_delta=frozen(np.radians(columns["yaw_delta_deg"]), np.float64),
         attack=frozen(columns["attack"], np.bool_),
         use=frozen(columns["use"], np.bool_),
+        digest=hashlib.sha256(data).hexdigest(),
     )
 
 
@@ -163,6 +168,25 @@ def steering_commands(trace: Trace, start_facing: float, behaviours: Collection[
         behaviour=frozen(behaviour[latest], np.int32),
         jump=frozen(jump[latest], np.int32),
     )
+
+
+def askable(behaviour: NDArray[np.int32], numbered: Sequence[str], present: Collection[str]) -> NDArray[np.int32]:
+    """What to ask of a character at each tick, where not every behaviour asked for can be shown.
+
+    It goes on with what it was last asked for and can show; at first it stops, or does the first it can.
+
+    Args:
+        behaviour: what the player asks for, an index into ``task.BEHAVIOURS``.  # (K,)
+        numbered: the behaviours that the result numbers, as of ``MotionGraph.behaviours``.
+        present: those that can be shown, one at least.
+
+    Returns:
+        An index into ``numbered`` for each tick.  # (K,)
+    """
+    asked = np.array([numbered.index(name) if name in present else -1 for name in BEHAVIOURS])[behaviour]
+    first = numbered.index("stop" if "stop" in present else next(name for name in numbered if name in present))
+    known = np.maximum.accumulate(np.where(asked >= 0, np.arange(1, len(asked) + 1), 0))
+    return np.concatenate([[first], asked])[known].astype(np.int32)
 
 
 def jump_windows(attack: ArrayLike) -> NDArray[np.int32]:
