@@ -32,7 +32,8 @@ def test_what_is_out_of_range_is_refused_by_name(option, value):
 
 
 def test_a_standard_graph_records_nothing_of_the_well_connected_one():
-    assert GraphOptions(mu=3.0).record() == {"graph": "standard", "threshold": 1.0, "metric": "uniform"}
+    expected = {"graph": "standard", "threshold": 1.0, "metric": "uniform", "mirror": False}
+    assert GraphOptions(mu=3.0).record() == expected
 
 
 def test_a_threshold_left_to_the_data_is_no_number_yet():

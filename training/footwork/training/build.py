@@ -10,6 +10,7 @@ from footwork.errors import InputError
 from footwork.motion.bundle import Bundle, sealed
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
+from footwork.motion.mirror import mirrored
 from footwork.motion.task import SteeringTask
 from footwork.motion.window import LENGTH
 from footwork.training.graph_options import GraphOptions
@@ -53,10 +54,11 @@ def build_bundle(
 ) -> tuple[Bundle, dict[str, Any]]:
     """A bundle of a motion graph and its steering policy, and a report of how it went.
 
-    The report is JSON-able: frames, nodes, edges (of the whole graph), scc_nodes, scc_fraction (of the captured
-    frames), what the graph's kind adds, threshold, knee (where it was to be found), seconds (read, which is 0 for the
-    clips came from the caller, each stage and the total), peak_rss_mb, policy (states, sweeps, residual, converged),
-    missing_behaviours (those that no frame of the graph shows, so that commands for them go unanswered) and digest.
+    The report is JSON-able: frames (captured), mirrored_frames (where there are any), nodes, edges (of the whole
+    graph), scc_nodes, scc_fraction (of the captured and mirrored frames), what the graph's kind adds, threshold, knee
+    (where it was to be found), seconds (read, which is 0 for the clips came from the caller, each stage and the total),
+    peak_rss_mb, policy (states, sweeps, residual, converged), missing_behaviours (those that no frame of the graph
+    shows, so that commands for them go unanswered) and digest.
 
     Args:
         motions: the clips and where they came from.
@@ -72,13 +74,16 @@ def build_bundle(
     stages = Stages(progress)
     _check(motions.clips)
     options, choice = chosen(motions.clips, options, stages)
-    built = _RECIPES[options.graph](motions.clips, options, task, stages)
+    clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
+    built = _RECIPES[options.graph](clips, options, task, stages)
     with stages("policy") as tell:
         table = solve(built.graph, task, progress=tell).require_converged()
-    provenance = _provenance(motions, options, task, built) | choice
+    extra = _mirrored_frames(motions, options)
+    provenance = _provenance(motions, options, task, built, extra) | choice
     bundle = sealed(Bundle(built.graph, {"steering": table}, provenance, tuple(motions.attribution)))
     report = {
-        "frames": built.frames,
+        "frames": sum(clip.frame_count for clip in motions.clips),
+        **extra,
         "nodes": built.nodes,
         "edges": built.edges,
         "scc_nodes": built.graph.node_count,
@@ -112,14 +117,25 @@ def _missing_behaviours(graph: MotionGraph) -> list[str]:
     return [name for index, name in enumerate(graph.behaviours) if index not in shown]
 
 
-def _provenance(motions: Motions, options: GraphOptions, task: SteeringTask, built: Built) -> dict[str, Any]:
-    """What the bundle was made of and how; nothing in it changes from one run to the next."""
+def _mirrored_frames(motions: Motions, options: GraphOptions) -> dict[str, int]:
+    """How many of the graph's frames are mirrored ones, where it has any."""
+    return {"mirrored_frames": sum(clip.frame_count for clip in motions.clips)} if options.mirror else {}
+
+
+def _provenance(
+    motions: Motions, options: GraphOptions, task: SteeringTask, built: Built, extra: Mapping[str, int]
+) -> dict[str, Any]:
+    """What the bundle was made of and how; nothing in it changes from one run to the next.
+
+    Its counts are of all frames that the graph was made of, those that ``extra`` tells are mirrored among them.
+    """
     return {
         "files": list(motions.files),
         "options": options.record() | {"task": msgspec.to_builtins(task)},
         "versions": {"footwork": version("footwork")},
         "counts": {
             "frames": built.frames,
+            **extra,
             "nodes": built.nodes,
             "edges": built.edges,
             "scc_nodes": built.graph.node_count,

@@ -25,6 +25,8 @@ class GraphOptions:
         threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm): a number, or auto
             for the knee of the captured frames' costs.
         metric: What tells how unlike two frames are: uniform, dynamics, torso or joints.
+        mirror: Play every clip with left and right exchanged, too: twice the frames, and a turn to one side serves for
+            the other.
         mu: Paths of a well-connected graph may cost this many times the best one's; more makes it smaller.
         weights: How many motions lie between the two of each pair in a well-connected graph: a number, or auto for as
             many, up to nine, as single hops under the threshold need.
@@ -39,6 +41,7 @@ class GraphOptions:
     graph: str = "standard"
     threshold: float | Literal["auto"] = 1.0
     metric: str = "uniform"
+    mirror: bool = False
     mu: float = 5.0
     weights: int | Literal["auto"] = "auto"
     pairing: str = "ratio"
