@@ -1,4 +1,5 @@
 import hashlib
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -86,7 +87,9 @@ def test_a_file_is_read_whatever_the_order_of_its_columns(tmp_path):
 @pytest.mark.parametrize(
     ("rows", "header", "said"),
     [
-        (GOOD, "tick,forward,strafe", "no column run"),
+        (GOOD, "tick,forward,strafe", "no column run, yaw_delta_deg, attack, use, expected tick,"),
+        (GOOD, ",".join([*COLUMNS[:-1], "run"]), "no column use"),
+        (GOOD, ",".join([*COLUMNS, "run"]), "column run is there twice"),
         (GOOD[:1], None, "expected at least 2"),
         ([], None, "expected at least 2"),
         ([GOOD[0], "1,x,0,0,0,0,0"], None, ":3: 'x' is not a number"),
@@ -96,14 +99,21 @@ def test_a_file_is_read_whatever_the_order_of_its_columns(tmp_path):
         ([GOOD[0], "1,0.5,0,0,0,0,0"], None, "whole number"),
         ([GOOD[0], "1,0,0,0,181,0,0"], None, "expected -180 to 180"),
         ([GOOD[0], "1,0,0"], None, "3 cells"),
-        ([GOOD[0], "2,0,0,0,0,0,0"], None, ":3: tick 2, expected 1"),
+        ([*GOOD, "3,0,0,0,0,0,0"], None, ":4: tick 3, expected 2"),
         ([GOOD[0], "0,0,0,0,0,0,0"], None, "tick 0, expected 1"),
+        ([*GOOD, "2,0,0,0,0,0,0", "4,0,0,0,0,0,0"], None, ":5: tick 4, expected 3"),
         (["1,0,0,0,0,0,0", "2,0,0,0,0,0,0"], None, "tick 1, expected 0"),
+        (
+            [f"{2 * row},0,0,0,0,0,0" for row in range(9)],
+            None,
+            "every row is 2 ticks on (17.5 rows a second), expected 35",
+        ),
+        (["0,0,0,0,0,0,0", "0.0333,0,0,0,0,0,0"], None, ":3: tick is 0.0333, expected a whole number"),
     ],
 )
 def test_a_bad_file_is_refused_with_its_place(tmp_path, rows, header, said):
     path = write(tmp_path / "bad.csv", rows, header or ",".join(COLUMNS))
-    with pytest.raises(InputError, match=said.replace("(", r"\(")) as caught:
+    with pytest.raises(InputError, match=re.escape(said)) as caught:
         read_trace(path)
     assert str(path) in str(caught.value)
 

@@ -172,6 +172,16 @@ def test_an_unknown_behaviour_is_refused_with_those_there_are(client):
     assert (caught.value.code, caught.value.sequence, caught.value.valid) == (BEHAVIOUR, sequence, SHOWN)
 
 
+@pytest.mark.parametrize("wanted", ["run", "swim", ""])
+def test_a_character_goes_on_after_a_behaviour_that_the_bundle_lacks(client, wanted):
+    before = pose_that_acknowledges(client, client.command(0, 0.0, "walk"))
+    sequence = client.command(0, 1.0, wanted)
+    with pytest.raises(RefusedError, match="stop, walk, jump") as caught:
+        pose_that_acknowledges(client, sequence)
+    assert caught.value.valid == SHOWN
+    assert pose_that_acknowledges(client, client.command(0, 0.0, "stop")).tick > before.tick
+
+
 def test_stop_says_bye_and_frees_the_address(server):
     client = Client(server.address)
     server.stop()

@@ -94,17 +94,15 @@ def read_trace(path: str | Path) -> Trace:
     """Read a trace from a CSV file with a header line; columns may stand in any order, others are ignored.
 
     Raises:
-        InputError: naming the line, for missing columns, cells that are no numbers or out of range, ticks that do
-            not count up from 0 one by one, and for fewer than two rows.
+        InputError: naming the line, for columns that are missing or there twice, cells that are no numbers or out of
+            range, ticks that do not count up from 0 one by one (gaps, another rate), and for fewer than two rows.
     """
     data = read_data(path)
     lines = [(place, line) for place, line in enumerate(lines_of(data), 1) if line.strip()]
     header = [cell.strip() for cell in lines[0][1].decode("utf-8", errors="replace").split(",")] if lines else []
-    missing = [name for name in COLUMNS if name not in header]
-    if missing:
-        raise InputError(f"no column {', '.join(missing)}, expected {','.join(COLUMNS)}", f"{path}:1")
+    _check_header(header, f"{path}:{lines[0][0] if lines else 1}")
     if len(lines) < 3:
-        raise InputError(f"{len(lines) - 1} rows, expected at least 2", path)
+        raise InputError(f"rows: {len(lines) - 1}, expected at least 2", path)
     places = [header.index(name) for name in COLUMNS]
     rows = [_row(line, len(header), places, f"{path}:{place}") for place, line in lines[1:]]
     columns = dict(zip(COLUMNS, np.array(rows).T, strict=True))
@@ -119,6 +117,15 @@ def read_trace(path: str | Path) -> Trace:
         use=frozen(columns["use"], np.bool_),
         digest=hashlib.sha256(data).hexdigest(),
     )
+
+
+def _check_header(header: list[str], where: str) -> None:
+    missing = [name for name in COLUMNS if name not in header]
+    if missing:
+        raise InputError(f"no column {', '.join(missing)}, expected {','.join(COLUMNS)}", where)
+    twice = [name for name in COLUMNS if header.count(name) > 1]
+    if twice:
+        raise InputError(f"column {twice[0]} is there twice", where)
 
 
 def _row(line: bytes, width: int, places: list[int], where: str) -> list[float]:
@@ -137,11 +144,14 @@ def _row(line: bytes, width: int, places: list[int], where: str) -> list[float]:
 
 def _check_ticks(ticks: NDArray, lines: list[int], path: str | Path) -> None:
     wrong = np.flatnonzero(ticks != np.arange(len(ticks)))
-    if wrong.size:
-        row = int(wrong[0])
-        raise InputError(
-            f"tick {ticks[row]:g}, expected {row}: ticks count up from 0 one by one", f"{path}:{lines[row]}"
-        )
+    if wrong.size == 0:
+        return
+    row = int(wrong[0])
+    where, steps = f"{path}:{lines[row]}", np.diff(ticks)
+    if steps[0] > 1 and (steps == steps[0]).all():
+        rate = f"{SOURCE_HZ / steps[0]:.4g}"
+        raise InputError(f"every row is {steps[0]:g} ticks on ({rate} rows a second), expected {SOURCE_HZ}", where)
+    raise InputError(f"tick {ticks[row]:g}, expected {row}: ticks count up from 0 one by one", where)
 
 
 def steering_commands(trace: Trace, start_facing: float, behaviours: Collection[str]) -> SteeringCommands:
