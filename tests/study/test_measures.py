@@ -15,9 +15,11 @@ TICK = measures.TICK
 
 def followed(ticks: int, **given_: Any) -> Followed:
     """A perfect follower that walks straight on, but for what is given (headings and facings in degrees)."""
-    base: dict[str, Any] = {"heading": 0.0, "behaviour": WALK, "jump": -1, "cost": 0.0, "natural": True} | given_
+    base: dict[str, Any] = (
+        {"heading": 0.0, "behaviour": WALK, "jump": -1, "cost": 0.0} | {"switched": False, "turned": False} | given_
+    )
     base = {"facing": base["heading"], "shown": base["behaviour"]} | base
-    kinds = dict.fromkeys(("heading", "facing", "cost"), float) | {"natural": bool}
+    kinds = dict.fromkeys(("heading", "facing", "cost"), float) | {"switched": bool, "turned": bool}
     arrays = {name: np.broadcast_to(value, ticks).astype(kinds.get(name, np.int32)) for name, value in base.items()}
     arrays["heading"], arrays["facing"] = np.radians(arrays["heading"]), np.radians(arrays["facing"])
     return Followed(**arrays)
@@ -47,15 +49,18 @@ def test_control_judges_the_heading_only_where_one_walks_or_runs():
     np.testing.assert_array_equal(followed(4, shown=[STOP, RUN, JUMP, -1]).control, np.zeros(4))
 
 
-def test_transition_charges_the_cost_of_edges_that_are_not_natural():
-    report = measures.quality(followed(4, natural=[True, True, False, False], cost=[0.0, 9.0, 1.0, 2.0]))
+def test_transition_charges_the_cost_of_ticks_that_switch_or_turn():
+    report = measures.quality(
+        followed(4, switched=[False, False, True, False], turned=[False, False, False, True], cost=[0.0, 9.0, 1.0, 2.0])
+    )
     jumps = (np.exp(-1.0) + np.exp(-2.0)) / 2
+    assert (report["switch_share"], report["turn_share"]) == (0.25, 0.25)
     assert report["transition_jumps"] == pytest.approx(jumps)
     assert report["transition"] == pytest.approx(0.5 + 0.5 * jumps)
 
 
 def test_total_is_the_product_of_means_and_the_mean_of_products_stands_beside_it():
-    report = measures.quality(followed(2, shown=[WALK, STOP], natural=[False, True], cost=1.0))
+    report = measures.quality(followed(2, shown=[WALK, STOP], switched=[True, False], cost=1.0))
     assert report["total"] == pytest.approx(0.5 * (1 + np.exp(-1)) / 2)
     assert report["total_by_tick"] == pytest.approx(0.5 * np.exp(-1))
 
@@ -132,14 +137,6 @@ def test_answers_agree_with_walking_through_the_ticks(seed, ticks):
 def test_joined_traces_weigh_by_their_ticks():
     parts = [followed(10), followed(30, shown=STOP)]
     assert measures.quality(measures.joined(parts))["control"] == pytest.approx(0.25)
-
-
-def test_the_interval_of_total_holds_the_total_and_shrinks_to_it_for_equal_traces():
-    parts = [followed(10, shown=[WALK] * k + [STOP] * (10 - k)) for k in (2, 4, 6, 8)]
-    low, high = measures.bootstrap_total(parts) or (1.0, 0.0)
-    assert low < 0.5 < high
-    assert measures.bootstrap_total([parts[0]] * 3) == pytest.approx([0.2, 0.2])
-    assert measures.bootstrap_total(parts[:1]) is None
 
 
 def test_the_behaviours_are_numbered_as_this_file_takes_them():

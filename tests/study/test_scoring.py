@@ -1,3 +1,4 @@
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -8,9 +9,10 @@ from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
-from footwork.motion.trace import Trace
-from footwork.study.replay import replay
+from footwork.study.replay import Stage, replay
 from footwork.study.scoring import score
+from footwork.study.showing import Showing
+from made_traces import trace
 from motion_samples import ring_graph
 from toy_bundle import toy_bundle
 
@@ -28,15 +30,14 @@ FIELDS = {
     "jumps_answered",
     "missing_behaviours",
     "foot_slide_cm_s",
-    "source_foot_slide_cm_s",
+    "skating_ratio",
+    "velocity_jump_m_s",
+    "switch_share",
+    "turn_share",
+    "decision_us",
     "tick_us",
 }
-
-
-def trace(name: str = "made.csv", ticks: int = 140, forward: int = 1, turn: float = 0.0, attack: int = 0) -> Trace:
-    none = np.zeros(ticks, dtype=bool)
-    ahead, aside = np.full(ticks, forward, np.int8), np.zeros(ticks, np.int8)
-    return Trace(name, ahead, aside, none, np.full(ticks, turn), np.full(ticks, attack > 0), none)
+SHARED = {"source_foot_slide_cm_s", "source_skating_ratio", "batch", "table_mb", "clip_mb", "intervals"}
 
 
 def ring_bundle(turn: float = 0.0) -> Bundle:
@@ -62,7 +63,8 @@ def test_a_character_that_turns_on_its_own_is_judged_at_the_frame_an_edge_leads_
 
 def test_all_fields_are_there_overall_and_for_each_trace():
     report = score(toy_bundle(), [trace("a.csv"), trace("b.csv", 300, turn=0.05, attack=1)])
-    assert set(report) >= FIELDS
+    assert set(report) >= FIELDS | SHARED
+    json.dumps(report, allow_nan=False)
     assert [one["file"] for one in report["traces"]] == ["a.csv", "b.csv"]
     assert all(set(one) >= FIELDS for one in report["traces"])
     weights = np.array([one["ticks"] for one in report["traces"]])
@@ -74,7 +76,8 @@ def test_the_same_traces_score_the_same():
     bundle = toy_bundle()
     one, two = (score(bundle, [trace(turn=0.02, attack=1)]) for _ in range(2))
     for report in (one, two, *one["traces"], *two["traces"]):
-        report.pop("tick_us")
+        for name in ("decision_us", "tick_us", "batch"):
+            report.pop(name, None)
     assert one == two
 
 
@@ -84,15 +87,21 @@ def test_a_missing_behaviour_scores_nothing_at_its_ticks_and_is_listed():
     assert (report["jumps_asked"], report["jumps_answered"]) == (1, 0)
     # the window of 12 source ticks covers eleven ticks of 1/30 s; the character meanwhile walks on
     assert report["control"] == pytest.approx(1.0 - 11 / 120)
-    assert score(ring_bundle(), [trace(forward=0)])["control"] == 0.0
+
+
+def test_a_trace_that_asks_for_nothing_that_the_character_can_do_is_refused():
+    with pytest.raises(InputError, match=r"^made\.csv: asks only for stop; the frames show walk$"):
+        score(ring_bundle(), [trace(forward=0)])
 
 
 def test_inertialisation_changes_what_is_shown_but_not_what_is_done():
     bundle = toy_bundle()
     controller = SteeringController(bundle.graph, bundle.table("steering"))
-    smooth, bare = (replay(bundle.graph, trace(), controller, inertialise=smooth) for smooth in (True, False))
+    stages = [Stage(bundle.graph, Showing(inertialise=smooth)) for smooth in (True, False)]
+    smooth, bare = (replay(trace(), controller, stage) for stage in stages)
     np.testing.assert_array_equal(smooth.followed.facing, bare.followed.facing)
     np.testing.assert_array_equal(smooth.followed.cost, bare.followed.cost)
+    assert np.percentile(bare.shown.switches, 95) > 2 * np.percentile(smooth.shown.switches, 95)
 
 
 def test_the_cost_of_the_graph_is_charged():

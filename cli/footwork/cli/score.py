@@ -30,13 +30,14 @@ def score(
     from footwork.motion.bundle import read_bundle
     from footwork.motion.trace import read_trace
     from footwork.study.scoring import score as score_traces
+    from footwork.study.showing import Showing
 
     paths = _trace_files(traces)
     loaded = read_bundle(bundle)
     with progress() as report_progress:
         report_progress("reading traces", 0.0)
         players = [read_trace(path) for path in paths]
-        report = score_traces(loaded, players, inertialise=inertialise, progress=report_progress)
+        report = score_traces(loaded, players, showing=Showing(inertialise), progress=report_progress)
     emit(report, json, f"{bundle} on {traces}")
 
 

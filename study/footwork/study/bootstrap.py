@@ -40,8 +40,8 @@ def ratio(amount: ArrayLike, count: ArrayLike, seed: int = 0) -> Estimate:
     amount, count = (np.asarray(values, dtype=np.float64) for values in (amount, count))
     if not count.sum() > 0.0:
         return NOTHING
-    drawn = _draws(len(count), seed)
-    return _estimate(amount.sum() / count.sum(), _quotient(drawn @ amount, drawn @ count))
+    drawn = draws(len(count), seed)
+    return estimate(amount.sum() / count.sum(), _quotient(drawn @ amount, drawn @ count))
 
 
 def relative_difference(
@@ -56,13 +56,13 @@ def relative_difference(
     sums = [float(part.sum()) for part in parts]
     if not min(sums[1:]) > 0.0:
         return NOTHING
-    drawn = _draws(len(parts[0]), seed)
+    drawn = draws(len(parts[0]), seed)
     first, second = (_quotient(drawn @ parts[at], drawn @ parts[at + 1]) for at in (0, 2))
-    return _estimate(sums[0] / sums[1] / (sums[2] / sums[3]) - 1.0, _quotient(first, second) - 1.0)
+    return estimate(sums[0] / sums[1] / (sums[2] / sums[3]) - 1.0, _quotient(first, second) - 1.0)
 
 
-def _draws(things: int, seed: int) -> NDArray[np.float64]:
-    """How often each thing is drawn.  # (DRAWS, n)"""
+def draws(things: int, seed: int) -> NDArray[np.float64]:
+    """How often each of n things comes up when n are drawn with replacement.  # (DRAWS, n)"""
     drawn = np.random.default_rng(seed).integers(0, things, (DRAWS, things))
     numbered = drawn + things * np.arange(DRAWS)[:, None]
     return np.bincount(numbered.ravel(), minlength=DRAWS * things).reshape(DRAWS, things).astype(np.float64)
@@ -72,7 +72,8 @@ def _quotient(amounts: NDArray, counts: NDArray) -> NDArray[np.float64]:
     return np.divide(amounts, counts, out=np.full(len(amounts), np.nan), where=counts > 0.0)
 
 
-def _estimate(value: float, drawn: NDArray[np.float64]) -> Estimate:
+def estimate(value: float, drawn: NDArray[np.float64]) -> Estimate:
+    """A number with the interval of what it was in each draw.  # drawn (DRAWS,)"""
     tail = 50.0 * (1.0 - LEVEL)
     low, high = np.nanpercentile(drawn, [tail, 100.0 - tail])
     return Estimate(float(value), float(low), float(high))

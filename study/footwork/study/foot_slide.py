@@ -92,8 +92,3 @@ def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None) -> Slid
     x, z = turn(here[target][..., 0], here[target][..., 1], step[..., 2])
     ahead = np.stack([x, z], axis=-1) + step[..., :2]
     return slide_of_steps(here[source], ahead, graph.contacts[source] & graph.contacts[target], TICK)
-
-
-def shown_soles(graph: MotionGraph, root: NDArray, rotations: NDArray) -> NDArray[np.float64]:
-    """Soles of poses as the world shows them.  # (F, 3), (F, J, 4) -> (F, feet, 2, 2)"""
-    return soles(graph.skeleton, forward(graph.skeleton, root, rotations)[0])

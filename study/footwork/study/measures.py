@@ -34,8 +34,9 @@ class Followed:
         jump: number of the jump window that the tick lies in, -1 for none.  # (K,)
         facing: of the frame that the edge leads to, radians.  # (K,)
         shown: behaviour of that frame, an index into ``task.BEHAVIOURS``, -1 for none.  # (K,)
-        cost: s of the edge by the uniform metric, 0 for natural edges.  # (K,)
-        natural: whether the edge follows the capture.  # (K,)
+        cost: s of the tick (``charges``), 0 for one that follows the capture.  # (K,)
+        switched: whether it left the order of the capture.  # (K,)
+        turned: whether the controller added a turn or a shift to it.  # (K,)
     """
 
     heading: NDArray[np.float64]
@@ -44,7 +45,13 @@ class Followed:
     facing: NDArray[np.float64]
     shown: NDArray[np.int32]
     cost: NDArray[np.float64]
-    natural: NDArray[np.bool_]
+    switched: NDArray[np.bool_]
+    turned: NDArray[np.bool_]
+
+    @property
+    def natural(self) -> NDArray[np.bool_]:
+        """Ticks that follow the capture and nothing else.  # (K,)"""
+        return ~(self.switched | self.turned)
 
     @property
     def headed(self) -> NDArray[np.bool_]:
@@ -140,7 +147,8 @@ def jumps(followed: Followed) -> dict[str, int]:
 def quality(followed: Followed) -> dict[str, Any]:
     """Control, Transition and Total: means over ticks, and their product (conventions.md 5).
 
-    ``transition_jumps`` is the mean qt over edges that are not natural, None without any;
+    ``transition_jumps`` is the mean qt over the ticks that do not just follow the capture, None without any;
+    ``switch_share`` and ``turn_share`` are the shares of ticks that leave its order and that add a turn;
     ``total_by_tick`` is the mean of qc qt, a second figure.
     """
     control, transition, jumped = followed.control, followed.transition, ~followed.natural
@@ -148,20 +156,12 @@ def quality(followed: Followed) -> dict[str, Any]:
         "control": float(control.mean()),
         "transition": float(transition.mean()),
         "transition_jumps": float(transition[jumped].mean()) if jumped.any() else None,
+        "switch_share": float(followed.switched.mean()),
+        "turn_share": float(followed.turned.mean()),
         "total": float(control.mean() * transition.mean()),
         "total_by_tick": float((control * transition).mean()),
         "heading_error_deg": mean_and_p95(np.degrees(followed.error[followed.headed])),
     }
-
-
-def bootstrap_total(parts: Sequence[Followed], samples: int = 2000, seed: int = 0) -> list[float] | None:
-    """The 95 % interval of Total when traces are drawn anew with replacement; None for fewer than two traces."""
-    if len(parts) < 2:
-        return None
-    sums = np.array([[len(part.heading), part.control.sum(), part.transition.sum()] for part in parts])
-    drawn = np.random.default_rng(seed).integers(0, len(parts), (samples, len(parts)))
-    ticks, control, transition = sums[drawn].sum(axis=1).T
-    return [float(bound) for bound in np.percentile(control * transition / ticks**2, [2.5, 97.5])]
 
 
 def mean_and_p95(values: NDArray) -> dict[str, float | None]:

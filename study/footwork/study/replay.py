@@ -7,15 +7,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import Controller, Situations
-from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import no_moves
 from footwork.motion.task import BEHAVIOURS
-from footwork.motion.tick import TICK_RATE
-from footwork.motion.trace import SteeringCommands, Trace, steering_commands
-from footwork.runtime.world import World
-from footwork.study.foot_slide import Slide, shown_soles, slide_of_frames
+from footwork.motion.trace import SteeringCommands, Trace
+from footwork.motion.turn_warp import TurnWarp, turn_warp
+from footwork.study.asked import asked_of, going_on, spawn_behaviour
+from footwork.study.charges import charges
+from footwork.study.contender import Contender, Foreseeing
 from footwork.study.measures import TASK, Followed
+from footwork.study.showing import Showing
+from footwork.study.shown import Shown, ground_of, shown
+
+
+class Stage:
+    """What replays on one graph share: the prices of its turns and the height of its ground.
+
+    Args:
+        graph: where characters live.
+        showing: what is done to poses.
+        sigma: what the graph's smoothness was made with.
+    """
+
+    def __init__(
+        self, graph: MotionGraph, showing: Showing | None = None, sigma: float = TASK.smoothness_sigma
+    ) -> None:
+        self.graph, self.showing, self.sigma = graph, showing or Showing(), sigma
+        self.warp: TurnWarp = turn_warp(graph)
+        self.ground = ground_of(graph)
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,112 +44,105 @@ class Replay:
     Args:
         name: of the trace.
         followed: what was asked and shown.
-        slide: of the shown poses' feet.
-        tick_us: decision, step and show of each tick, microseconds.  # (K,)
+        shown: measures of the poses.
+        decision_us: the controller's choice at each tick, microseconds.  # (K,)
+        tick_us: choice, step and show, microseconds.  # (K,)
     """
 
     name: str
     followed: Followed
-    slide: Slide
+    shown: Shown
+    decision_us: NDArray[np.float64]
     tick_us: NDArray[np.float64]
 
 
-def replay(
-    graph: MotionGraph,
-    trace: Trace,
-    controller: Controller,
-    *,
-    inertialise: bool = True,
-    most_ticks: int | None = None,
-    sigma: float = TASK.smoothness_sigma,
-) -> Replay:
+def replay(trace: Trace, contender: Contender, stage: Stage, most_ticks: int | None = None) -> Replay:
     """Let a character follow a trace, from a frame that stands, facing along the view.
 
     A behaviour that no frame shows cannot be asked of a controller: it is asked to walk in place of run, and at
     any other such tick to go on with what it was last asked for. The score still holds it against the trace.
 
     Args:
-        graph: where the character lives.
         trace: the player.
-        controller: what chooses edges.
-        inertialise: whether transitions are smoothed.
+        contender: what chooses moves.
+        stage: of the contender's graph.
         most_ticks: stop after so many ticks.
-        sigma: what the graph's smoothness was made with.
 
     Raises:
-        InputError: for a graph without a frame of any behaviour.
+        InputError: for a graph without a frame of any behaviour, and a trace that asks for none that it shows.
     """
-    if not controller.present:
-        raise InputError("no frame shows any behaviour, expected at least one", graph.where)
-    commands = steering_commands(trace, 0.0, controller.present).first(most_ticks)
-    asked = _askable(commands.behaviour, graph.behaviours, controller.present)
-    world = World(graph, 1, inertialise=inertialise)
-    start = "stop" if "stop" in controller.present else controller.present[0]
-    controller.begin(world.spawn(controller.start_node(start), 0.0, 0.0, 0.0))
-    ran = _run(world, controller, commands.heading, asked)
-    return Replay(trace.name, _followed(graph, commands, ran, sigma), _slide(graph, ran), ran.nanoseconds / 1e3)
+    commands, asked = asked_of(trace, contender.graph, contender.present)
+    commands, asked = commands.first(most_ticks), asked[:most_ticks]
+    graph = stage.graph
+    controller = contender.knowing(commands.heading, asked) if isinstance(contender, Foreseeing) else contender
+    first = graph.behaviours.index(spawn_behaviour(contender.present))
+    ran = _run(stage, controller, commands.heading, going_on(asked, first))
+    poses = shown(graph, ran.target, ~ran.natural, ran.root, ran.rotations, stage.ground)
+    return Replay(trace.name, _followed(stage, commands, ran), poses, ran.decision_ns / 1e3, ran.tick_ns / 1e3)
 
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """What the world went through: edges, facings, poses and times of K ticks."""
+    """What the world went through: moves, facings, poses and times of K ticks."""
 
+    source: NDArray[np.int32]
     edge: NDArray[np.int32]
+    target: NDArray[np.int32]
+    adjustment: NDArray[np.float64]
+    natural: NDArray[np.bool_]
     facing: NDArray[np.float64]
     root: NDArray[np.float32]
     rotations: NDArray[np.float32]
-    nanoseconds: NDArray[np.int64]
+    decision_ns: NDArray[np.int64]
+    tick_ns: NDArray[np.int64]
 
 
-def _run(world: World, controller: Controller, heading: NDArray, asked: NDArray) -> _Run:
-    ticks, joints = len(heading), world.graph.skeleton.joint_count
-    run = _Run(
-        np.empty(ticks, np.int32),
-        np.empty(ticks),
-        np.empty((ticks, 3), np.float32),
-        np.empty((ticks, joints, 4), np.float32),
-        np.empty(ticks, np.int64),
-    )
+def _run(stage: Stage, controller: Controller, heading: NDArray, asked: NDArray) -> _Run:
+    graph, ticks = stage.graph, len(heading)
+    run = _room(ticks, graph.skeleton.joint_count)
+    world = stage.showing.world(graph, 1)
+    controller.begin(world.spawn(controller.start_node(spawn_behaviour(controller.present)), 0.0, 0.0, 0.0))
     moves, slots, clock = no_moves(1), np.zeros(1, np.intp), time.perf_counter_ns
     for tick in range(ticks):
+        run.source[tick] = world.node[0]
         wanted, behaviour = heading[tick : tick + 1], asked[tick : tick + 1]
         began = clock()
         controller.choose(Situations(slots, world.node, world.place, wanted, behaviour), moves)
+        chosen = clock()
         world.step(moves)
         root, rotations = world.show(1.0)
-        run.nanoseconds[tick] = clock() - began
-        run.edge[tick], run.facing[tick] = world.edge[0], world.place[0, 2]
+        run.tick_ns[tick], run.decision_ns[tick] = clock() - began, chosen - began
+        run.edge[tick], run.target[tick], run.natural[tick] = moves.edge[0], moves.target[0], moves.natural[0]
+        run.adjustment[tick], run.facing[tick] = moves.adjustment[0], world.place[0, 2]
         run.root[tick], run.rotations[tick] = root[0], rotations[0]
     return run
 
 
-def _askable(behaviour: NDArray, numbered: tuple[str, ...], present: tuple[str, ...]) -> NDArray[np.int32]:
-    """What to ask of the controller: an index into ``numbered`` for each tick."""
-    asked = np.array([numbered.index(name) if name in present else -1 for name in BEHAVIOURS])[behaviour]
-    first = numbered.index("stop" if "stop" in present else present[0])
-    known = np.maximum.accumulate(np.where(asked >= 0, np.arange(1, len(asked) + 1), 0))
-    return np.concatenate([[first], asked])[known].astype(np.int32)
+def _room(ticks: int, joints: int) -> _Run:
+    return _Run(
+        source=np.empty(ticks, np.int32),
+        edge=np.empty(ticks, np.int32),
+        target=np.empty(ticks, np.int32),
+        adjustment=np.empty((ticks, 3)),
+        natural=np.empty(ticks, np.bool_),
+        facing=np.empty(ticks),
+        root=np.empty((ticks, 3), np.float32),
+        rotations=np.empty((ticks, joints, 4), np.float32),
+        decision_ns=np.empty(ticks, np.int64),
+        tick_ns=np.empty(ticks, np.int64),
+    )
 
 
-def _followed(graph: MotionGraph, commands: SteeringCommands, run: _Run, sigma: float) -> Followed:
+def _followed(stage: Stage, commands: SteeringCommands, run: _Run) -> Followed:
+    graph = stage.graph
     names = [BEHAVIOURS.index(name) if name in BEHAVIOURS else -1 for name in graph.behaviours]
     return Followed(
         heading=commands.heading,
         behaviour=commands.behaviour,
         jump=commands.jump,
         facing=run.facing,
-        shown=np.array([*names, -1], np.int32)[graph.behaviour[graph.target[run.edge]]],
-        cost=_uniform_costs(graph, run.edge, sigma),
-        natural=graph.natural[run.edge],
+        shown=np.array([*names, -1], np.int32)[graph.behaviour[run.target]],
+        cost=charges(graph, stage.warp, run.source, run.edge, run.target, run.adjustment, stage.sigma),
+        switched=~run.natural,
+        turned=(run.adjustment != 0.0).any(axis=1),
     )
-
-
-def _uniform_costs(graph: MotionGraph, edges: NDArray, sigma: float) -> NDArray[np.float64]:
-    """s by the uniform metric, which smoothness is judged by whichever metric built the graph.  # (E,)"""
-    smoothness = np.maximum(graph.smoothness[edges].astype(np.float64), np.finfo(np.float32).tiny)
-    return -sigma * np.log(smoothness)
-
-
-def _slide(graph: MotionGraph, run: _Run) -> Slide:
-    points = shown_soles(graph, run.root, run.rotations)
-    return slide_of_frames(points, graph.contacts[graph.target[run.edge]], TICK_RATE)

@@ -1,7 +1,8 @@
 """The score: how well, how soon and how smoothly a character follows recorded players.
 
-Every figure is defined in ``measures`` (Control, Transition, Total, heading error, settle time, latency, jumps) and
-``foot_slide``; figures of several traces are over all their ticks and changes, so long traces weigh more.
+Every figure is defined in ``measures`` (Control, Transition, Total, heading error, settle time, latency, jumps),
+``charges`` (what a tick costs), ``shown`` (foot slide, skating, jumps of velocity) and ``pace`` (time); figures of
+several traces are over all their ticks and changes, so long traces weigh more.
 """
 
 from collections.abc import Callable, Sequence
@@ -9,69 +10,94 @@ from typing import Any
 
 import numpy as np
 
-from footwork.controllers.controller import Controller
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
+from footwork.motion.graph import ARRAYS
 from footwork.motion.task import BEHAVIOURS
 from footwork.motion.trace import Trace
 from footwork.study import measures
-from footwork.study.foot_slide import Slide, slide_of_capture
-from footwork.study.replay import Replay, replay
+from footwork.study.contender import Contender, Foreseeing
+from footwork.study.intervals import intervals
+from footwork.study.pace import pace, times_of
+from footwork.study.replay import Replay, Stage, replay
+from footwork.study.showing import Showing
+from footwork.study.shown import shown_report, source_report
+
+_MEGABYTE = 1e6
+_COMPILING_TICKS = 3
 
 
 def score(
     bundle: Bundle,
     traces: Sequence[Trace],
-    controller: Controller | None = None,
+    contender: Contender | None = None,
     *,
-    inertialise: bool = True,
+    showing: Showing | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> dict[str, Any]:
-    """Replay traces through a bundle's character, one at a time, and report (JSON-able; None where there is nothing).
+    """Replay traces through a character, one at a time, and report (JSON-able; None where there is nothing).
 
-    ``control, transition, transition_jumps, total, total_by_tick, heading_error_deg`` as ``measures.quality``;
-    ``settle_s, settled_share`` as ``measures.settling``; ``behaviour_latency_s, answered_share`` as
-    ``measures.latencies``; ``jumps_asked, jumps_answered`` as ``measures.jumps``; ``missing_behaviours`` are those
-    that a trace asks for and no frame shows, whose ticks score 0; ``foot_slide_cm_s`` is of the poses shown at the
-    ticks and ``source_foot_slide_cm_s`` of the capture in the graph; ``tick_us`` is decision, step and show of one
-    character; ``total_interval`` as ``measures.bootstrap_total``; ``traces`` has the same of each trace with its
-    ``file``.
+    ``control, transition, transition_jumps, total, total_by_tick, switch_share, turn_share, heading_error_deg`` as
+    ``measures.quality``; ``settle_s, settled_share`` as ``measures.settling``; ``behaviour_latency_s,
+    answered_share`` as ``measures.latencies``; ``jumps_asked, jumps_answered`` as ``measures.jumps``;
+    ``missing_behaviours`` are those that a trace asks for and no frame shows, whose ticks score 0;
+    ``foot_slide_cm_s, skating_ratio, velocity_jump_m_s`` of the poses shown at the ticks and
+    ``source_foot_slide_cm_s, source_skating_ratio`` of the capture in the graph; ``decision_us, tick_us`` for one
+    character alone and in ``batch`` for many at once (None for what must know the trace); ``table_mb`` is what the
+    controller looks things up in and ``clip_mb`` the graph; ``intervals`` over traces; ``traces`` has the same of
+    each trace with its ``file``.
 
     Args:
-        bundle: what is scored; transitions count by the uniform metric, whichever metric built the graph.
+        bundle: whose character is scored, where no contender is given; transitions count by the uniform metric,
+            whichever metric built the graph.
         traces: the recorded players.
-        controller: what chooses edges; the bundle's "steering" table by default.
-        inertialise: whether transitions are smoothed (it changes the shown poses, so foot slide and time only).
+        contender: what chooses moves, on a graph of its own; the bundle's "steering" table by default.
+        showing: what is done to poses (it changes what is shown, so foot slide, skating and time only).
         progress: told the share that is done.
 
     Raises:
-        InputError: for no traces, a bundle without a steering table or a graph without a frame of any behaviour.
+        InputError: for no traces, one that asks for nothing that the character can do, or a bundle without a steering
+            table where no contender is given.
     """
     if not traces:
         raise InputError("no traces, expected at least one", "traces")
-    graph = bundle.graph
-    controller = controller or SteeringController(graph, bundle.table("steering"))
-    replay(graph, traces[0], controller, inertialise=inertialise, most_ticks=3)  # compiles every kernel
-    source = slide_of_capture(graph)
-    sigma = bundle.table("steering").task.smoothness_sigma
+    contender = contender or SteeringController(bundle.graph, bundle.table("steering"))
+    stage = Stage(contender.graph, showing, sigma=_sigma(bundle))
+    replays = replays_of(traces, contender, stage, progress)
+    shared = {
+        **source_report(contender.graph),
+        "batch": None if isinstance(contender, Foreseeing) else pace(traces, contender, stage.showing),
+        "table_mb": _table_megabytes(contender),
+        "clip_mb": sum(getattr(contender.graph, name).nbytes for name in ARRAYS) / _MEGABYTE,
+    }
+    followed, slides = [one.followed for one in replays], [one.shown.slide for one in replays]
+    single = [{"file": one.name} | report_of([one], contender) for one in replays]
+    return report_of(replays, contender) | shared | {"intervals": intervals(followed, slides), "traces": single}
+
+
+def replays_of(
+    traces: Sequence[Trace],
+    contender: Contender,
+    stage: Stage,
+    progress: Callable[[str, float], None] | None = None,
+) -> list[Replay]:
+    """All traces replayed, every kernel compiled before the first."""
+    replay(traces[0], contender, stage, most_ticks=_COMPILING_TICKS)
     replays = []
     for done, trace in enumerate(traces):
         if progress:
             progress("replaying traces", done / len(traces))
-        replays.append(replay(graph, trace, controller, inertialise=inertialise, sigma=sigma))
-    report = _report(replays, controller.present, source)
-    interval = measures.bootstrap_total([one.followed for one in replays])
-    single = [{"file": one.name} | _report([one], controller.present, source) for one in replays]
-    return report | {"total_interval": interval, "traces": single}
+        replays.append(replay(trace, contender, stage))
+    return replays
 
 
-def _report(replays: Sequence[Replay], present: tuple[str, ...], source: Slide) -> dict[str, Any]:
+def report_of(replays: Sequence[Replay], contender: Contender) -> dict[str, Any]:
+    """The figures of some replays together, as ``score`` names them."""
     parts = [one.followed for one in replays]
     settling = measures.joined([measures.settling(part) for part in parts])
     latencies = measures.joined([measures.latencies(part) for part in parts])
     jumps = [measures.jumps(part) for part in parts]
-    slide = sum((one.slide for one in replays), Slide(0.0, 0.0))
     asked = {BEHAVIOURS[index] for part in parts for index in np.unique(part.behaviour)}
     return measures.quality(measures.joined(parts)) | {
         "settle_s": settling.summary(),
@@ -79,14 +105,23 @@ def _report(replays: Sequence[Replay], present: tuple[str, ...], source: Slide) 
         "behaviour_latency_s": latencies.summary(),
         "answered_share": latencies.share,
         **{name: sum(jump[name] for jump in jumps) for name in ("jumps_asked", "jumps_answered")},
-        "missing_behaviours": sorted(asked - set(present)),
-        "foot_slide_cm_s": slide.cm_per_second,
-        "source_foot_slide_cm_s": source.cm_per_second,
-        "tick_us": _times(np.concatenate([one.tick_us for one in replays])),
+        "missing_behaviours": sorted(asked - set(contender.present)),
+        **shown_report([one.shown for one in replays]),
+        "decision_us": times_of(np.concatenate([one.decision_us for one in replays])),
+        "tick_us": times_of(np.concatenate([one.tick_us for one in replays])),
         "ticks": sum(len(one.tick_us) for one in replays),
     }
 
 
-def _times(microseconds: np.ndarray) -> dict[str, float]:
-    p50, p99 = np.percentile(microseconds, [50, 99])
-    return {"mean": float(microseconds.mean()), "p50": float(p50), "p99": float(p99)}
+def _sigma(bundle: Bundle) -> float:
+    """What the graph's smoothness was made with: its policy's sigma, the usual one where it has no policy."""
+    table = bundle.tables.get("steering")
+    return table.task.smoothness_sigma if table else measures.TASK.smoothness_sigma
+
+
+def _table_megabytes(contender: Contender) -> float | None:
+    """What it looks things up in beside the graph, None where it does not say."""
+    if isinstance(contender, SteeringController):
+        return contender.table.values.nbytes / _MEGABYTE
+    bytes_there = getattr(contender, "table_bytes", None)
+    return None if bytes_there is None else bytes_there / _MEGABYTE
