@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from footwork.motion import kinematics, quaternion
 from footwork.motion.moves import LEAP, moves_along, no_moves
+from footwork.motion.turn_warp import turned
 from footwork.runtime.world import NoSuchCharacter, World, WorldError, WorldFull, WrongMove
 from toy_graphs import edge_between, graph_of, homogeneous, planar_places, wandering_clip
 
@@ -178,3 +179,44 @@ def test_bad_arguments_are_refused():
     for capacity, halflife in [(0, 0.1), (1, 0.0), (1, np.nan)]:
         with pytest.raises(WorldError):
             World(GRAPH, capacity, halflife=halflife)
+
+
+def adjusted(path: list[int], random: np.random.Generator):
+    """Moves along a path with adjustments of every size up to a few centimetres and degrees, none now and then."""
+    for source, target in itertools.pairwise(path):
+        moves = moves_along(GRAPH, np.array([edge_between(GRAPH, source, target)]))
+        moves.adjustment[0] = random.uniform(-0.1, 0.1, 3) * random.choice([0.0, 1e-5, 1.0])
+        yield moves
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_adjustment_is_spread_over_its_tick(seed):
+    random, world = np.random.default_rng(seed), World(GRAPH, 1)
+    world.spawn(8, 1.0, 2.0, 3.0)
+    for moves in adjusted([8, 9, 10, *range(FRAMES + 6, FRAMES + 13), *range(5, 16), *range(4, 12)], random):
+        root, rotations = seen(world, 1.0)
+        world.step(moves)
+        root_after, rotations_after = seen(world, 1e-6)
+        np.testing.assert_allclose(root_after, root, atol=2e-6)
+        assert angle_between(rotations_after, rotations) < 2e-6
+
+
+def test_an_adjustment_is_whole_at_its_ticks_end_and_turns_evenly_about_its_pivot():
+    world, moves = World(GRAPH, 1), moves_along(GRAPH, np.array([4], np.int32))
+    world.spawn(4, 1.0, 2.0, 0.5)
+    pivot, yaw = np.array([0.1, -0.2]), 0.3
+    moves.adjustment[0] = turned(pivot, yaw)
+    world.step(moves)
+    bare = World(GRAPH, 1)
+    bare.spawn(4, 1.0, 2.0, 0.5)
+    bare.step(moves_along(GRAPH, np.array([4], np.int32)))
+    to_world = homogeneous(bare.place[0])
+    about = to_world @ [pivot[0], 0.0, pivot[1], 1.0]
+    for fraction in (1e-6, 0.25, 0.5, 1.0):
+        (root, rotations), (plain, plain_rotations) = seen(world, fraction), seen(bare, fraction)
+        expected = about[:3] + quaternion.rotate(quaternion.from_yaw(fraction * yaw), plain - about[:3])
+        np.testing.assert_allclose(root, expected, atol=1e-6)
+        turn = quaternion.multiply(quaternion.from_yaw(fraction * yaw), plain_rotations[0])
+        assert angle_between(rotations[0], turn) < 1e-6
+        np.testing.assert_array_equal(rotations[1:], plain_rotations[1:])
+    np.testing.assert_allclose(homogeneous(world.place[0]), to_world @ homogeneous(moves.adjustment[0]), atol=1e-12)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.tick import TICK
 from footwork.runtime.motion_rows import SPIN, VELOCITY
+from footwork.runtime.moving import glided
 from footwork.runtime.rotation_kernels import (
     along,
     before,
@@ -161,7 +162,7 @@ def jump(
     old_node: int,
     old_place: NDArray,
     new_node: int,
-    new_place: NDArray,
+    new_place: tuple[float, float, float],
     root_position: NDArray,
     root_velocity: NDArray,
     nodes: NDArray,
@@ -177,7 +178,7 @@ def jump(
         old_node: where it was.
         old_place: its planar place there, (x, z, yaw).  # (3,)
         new_node: where the edge led.
-        new_place: its planar place there.  # (3,)
+        new_place: its planar place there, as the tick begins.
         root_position: of the graph.  # (N, 3)
         root_velocity: of the graph.  # (N, 3)
         nodes: ``motion_rows.node_rows`` of the graph.  # (N, 7, padded J)
@@ -194,3 +195,41 @@ def jump(
     root[0, 1] += TICK * y
     root[0, 2] += TICK * z
     _jump_joints(offsets[who], nodes[old_node], nodes[new_node], old_place[2], new_place[2])
+
+
+@numba.njit(cache=True, nogil=True)
+def take_jumps(
+    settle_ticks: int,
+    ticks_left: NDArray,
+    active: NDArray,
+    natural: NDArray,
+    old_node: NDArray,
+    old_place: NDArray,
+    node: NDArray,
+    place: NDArray,
+    glide: NDArray,
+    root_position: NDArray,
+    root_velocity: NDArray,
+    nodes: NDArray,
+    offsets: NDArray,
+    roots: NDArray,
+) -> None:
+    """``jump`` for all active characters whose move is not natural, from where their tick begins; see there.
+
+    ``glide`` is what ``moving.make_moves`` gives (C, 3); ``ticks_left`` is set to ``settle_ticks`` for those that jump.
+    """
+    for who in range(active.shape[0]):
+        if active[who] and not natural[who]:
+            ticks_left[who] = settle_ticks
+            jump(
+                who,
+                old_node[who],
+                old_place[who],
+                node[who],
+                glided(place[who], glide[who], -1.0),
+                root_position,
+                root_velocity,
+                nodes,
+                offsets,
+                roots,
+            )

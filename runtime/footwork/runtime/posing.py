@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from footwork.motion.tick import TICK
 from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.motion_rows import SPIN, VELOCITY
+from footwork.runtime.moving import glided
 from footwork.runtime.rotation_kernels import along, before, column3, column4, exp, multiply, planar, turned
 
 
@@ -51,6 +52,7 @@ def pose(
     active: NDArray,
     node: NDArray,
     place: NDArray,
+    glide: NDArray,
     fraction: float,
     halflife: float,
     root_position: NDArray,
@@ -63,13 +65,14 @@ def pose(
 ) -> None:
     """Write the poses of all active characters at a fraction of the tick into the last two arrays.
 
-    The node's pose is moved back by its own velocities over what is left of the tick, and the offsets have decayed
-    over what has passed of it.
+    The node's pose is moved back by its own velocities, and its place along its glide, over what is left of the tick;
+    the offsets have decayed over what has passed of it.
 
     Args:
         active: which rows are characters.  # (C,)
         node: where each is.  # (C,)
         place: planar places (x, z, yaw) of the nodes.  # (C, 3)
+        glide: planar motions that led there over the tick, m and rad a tick.  # (C, 3)
         fraction: how much of the tick has passed, 0..1.
         halflife: of the offsets, s.
         root_position: of the graph.  # (N, 3)
@@ -88,8 +91,9 @@ def pose(
         if not active[who]:
             continue
         here, shown = node[who], shown_rotations[who]
-        _pose_root(place[who], root_position[here], root_velocity[here], back, roots[who], a, b, shown_root[who])
-        _pose_first_joint(place[who, 2], nodes[here], offsets[who], back, a, b, shown[0])
+        at = glided(place[who], glide[who], fraction - 1.0)
+        _pose_root(at, root_position[here], root_velocity[here], back, roots[who], a, b, shown_root[who])
+        _pose_first_joint(at[2], nodes[here], offsets[who], back, a, b, shown[0])
         _pose_joints(nodes[here], offsets[who], back32, a32, b32, rows)
         for joint in range(1, shown.shape[0]):
             for k in range(4):

@@ -2,7 +2,6 @@
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,8 +10,9 @@ from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
 from footwork.motion.tick import TICK
 from footwork.runtime import posing
-from footwork.runtime.inertialisation import decay, jump, ticks_to_settle
+from footwork.runtime.inertialisation import decay, take_jumps, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
+from footwork.runtime.moving import first_wrong_move, make_moves, within_half_turn
 from footwork.runtime.rotation_kernels import turned
 
 HALFLIFE = 0.1
@@ -33,108 +33,6 @@ class NoSuchCharacter(WorldError):  # noqa: N818
 
 class WrongMove(WorldError):  # noqa: N818
     """A character was told to take an edge that does not leave from its node, or to move where nothing is."""
-
-
-@numba.njit(cache=True, nogil=True)
-def within_half_turn(angle: float) -> float:
-    """The same direction as an angle in -pi..pi; angles already there stay as they are to the last bit."""
-    return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)
-
-
-@numba.njit(cache=True, nogil=True)
-def first_wrong_move(
-    active: NDArray,
-    node: NDArray,
-    edge: NDArray,
-    target: NDArray,
-    displacement: NDArray,
-    adjustment: NDArray,
-    edge_start: NDArray,
-    graph_target: NDArray,
-) -> int:
-    """The first active row whose move cannot be made, -1 for none; the arguments are those of Moves and the graph."""
-    for who in range(active.shape[0]):
-        if not active[who]:
-            continue
-        if not 0 <= target[who] < edge_start.shape[0] - 1:
-            return who
-        taken = edge[who]
-        if taken != LEAP and not edge_start[node[who]] <= taken < edge_start[node[who] + 1]:
-            return who
-        if taken != LEAP and graph_target[taken] != target[who]:
-            return who
-        for k in range(3):
-            if not math.isfinite(displacement[who, k] + adjustment[who, k]):
-                return who
-    return -1
-
-
-@numba.njit(cache=True, nogil=True)
-def _carry(place: NDArray, transform: NDArray) -> None:
-    """Take a planar place (3,) through a planar transform (3,), in place; yaw is kept within -pi..pi."""
-    yaw = place[2]
-    x, _, z = turned(math.cos(yaw), math.sin(yaw), (transform[0], 0.0, transform[1]))
-    place[0] += x
-    place[1] += z
-    place[2] = within_half_turn(yaw + transform[2])
-
-
-@numba.njit(cache=True, nogil=True)
-def make_moves(
-    active: NDArray, target: NDArray, displacement: NDArray, adjustment: NDArray, node: NDArray, place: NDArray
-) -> None:
-    """Make the moves of all active characters, in place; yaw is kept within -pi..pi.
-
-    Args:
-        active: which rows are characters.  # (C,)
-        target: of the moves.  # (C,)
-        displacement: of the moves.  # (C, 3)
-        adjustment: of the moves.  # (C, 3)
-        node: where each is.  # (C,)
-        place: planar places (x, z, yaw).  # (C, 3)
-    """
-    for who in range(active.shape[0]):
-        if active[who]:
-            _carry(place[who], displacement[who])
-            _carry(place[who], adjustment[who])
-            node[who] = target[who]
-
-
-@numba.njit(cache=True, nogil=True)
-def take_jumps(
-    settle_ticks: int,
-    ticks_left: NDArray,
-    active: NDArray,
-    natural: NDArray,
-    old_node: NDArray,
-    old_place: NDArray,
-    node: NDArray,
-    place: NDArray,
-    root_position: NDArray,
-    root_velocity: NDArray,
-    nodes: NDArray,
-    offsets: NDArray,
-    roots: NDArray,
-) -> None:
-    """``inertialisation.jump`` for all active characters whose move is not natural; see there for the arrays.
-
-    ``ticks_left`` is set to ``settle_ticks`` for them.
-    """
-    for who in range(active.shape[0]):
-        if active[who] and not natural[who]:
-            ticks_left[who] = settle_ticks
-            jump(
-                who,
-                old_node[who],
-                old_place[who],
-                node[who],
-                place[who],
-                root_position,
-                root_velocity,
-                nodes,
-                offsets,
-                roots,
-            )
 
 
 class World:
@@ -179,6 +77,7 @@ class World:
         self._roots = np.zeros((capacity, 2, 3))
         self._ticks_left = np.zeros(capacity, dtype=np.int32)
         self._settle_ticks = ticks_to_settle(halflife)
+        self._glide = np.zeros_like(self.place)
         self._old_node = np.zeros_like(self.node)
         self._old_place = np.zeros_like(self.place)
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
@@ -202,7 +101,7 @@ class World:
         self.node[slot] = node
         self.edge[slot], self.natural[slot] = LEAP, True
         self.place[slot] = x, z, within_half_turn(yaw)
-        self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = 0
+        self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = self._glide[slot] = 0
         return slot
 
     def remove(self, slot: int) -> None:
@@ -256,7 +155,7 @@ class World:
             self._raise_wrong_move(wrong, moves)
         self._old_node[:] = self.node
         self._old_place[:] = self.place
-        make_moves(self.active, moves.target, moves.displacement, moves.adjustment, self.node, self.place)
+        make_moves(self.active, moves.target, moves.displacement, moves.adjustment, self.node, self.place, self._glide)
         self.edge[:], self.natural[:] = moves.edge, moves.natural
         if self.inertialise:
             self._carry_over()
@@ -273,6 +172,7 @@ class World:
             self._old_place,
             self.node,
             self.place,
+            self._glide,
             *self._motion,
             self._offsets,
             self._roots,
@@ -294,6 +194,7 @@ class World:
             self.active,
             self.node,
             self.place,
+            self._glide,
             fraction,
             self.halflife,
             *self._motion,
