@@ -20,6 +20,7 @@ class GraphWindows:
     Attributes:
         before: the node before each in its motion, NONE where there is none.  # (N,)
         after: the node after each.  # (N,)
+        step: planar place of that node, seen from the one before it, zero where there is none.  # (N, 3)
     """
 
     def __init__(self, graph: MotionGraph) -> None:
@@ -28,8 +29,8 @@ class GraphWindows:
         self.graph = graph
         self.before, self.after = (np.full(graph.node_count, NONE, dtype=np.int64) for _ in range(2))
         self.before[target], self.after[source] = source, target
-        self._step = np.zeros((graph.node_count, 3))
-        self._step[source] = graph.displacement[edges]
+        self.step = np.zeros((graph.node_count, 3))
+        self.step[source] = graph.displacement[edges]
 
     def nodes(self, middle: NDArray) -> NDArray[np.int64]:
         """The nodes of each node's window, NONE where its motion has none.  # (n,) -> (n, LENGTH)"""
@@ -50,20 +51,28 @@ class GraphWindows:
             whole[..., at] = np.where(whole[..., at] == NONE, whole[..., at - 1], whole[..., at])
         return whole
 
+    def places(self, windows: NDArray) -> NDArray[np.float64]:
+        """Planar places of whole windows' nodes, seen from their first.  # (..., LENGTH) -> (..., LENGTH, 3)"""
+        places = np.zeros((*windows.shape, 3))
+        for at in range(1, windows.shape[-1]):
+            moves = windows[..., at] != windows[..., at - 1]
+            step = self.step[windows[..., at - 1]] * moves[..., None]
+            places[..., at, :] = composed(places[..., at - 1, :], step)
+        return places
+
     def points(self, windows: NDArray) -> NDArray[np.float64]:
         """Joints of whole windows, each in the planar frame of its first node, metres.
 
         # (..., LENGTH) -> (..., LENGTH, J, 3)
         """
         points = forward(self.graph.skeleton, self.graph.root_position[windows], self.graph.rotations[windows])[0]
-        place = np.zeros((*windows.shape[:-1], 3))
-        for at in range(1, windows.shape[-1]):
-            moves = windows[..., at] != windows[..., at - 1]
-            step = self._step[windows[..., at - 1]] * moves[..., None]
-            x, z = turn(step[..., 0], step[..., 1], place[..., 2])
-            place = place + np.stack([x, z, step[..., 2]], axis=-1)
-            points[..., at, :, :] = laid(points[..., at, :, :], place)
-        return points
+        return laid(points, self.places(windows))
+
+
+def composed(place: NDArray, step: NDArray) -> NDArray[np.float64]:
+    """Planar places: a step seen from where ``place`` is.  # (..., 3), (..., 3) -> (..., 3)"""
+    x, z = turn(step[..., 0], step[..., 1], place[..., 2])
+    return place + np.stack([x, z, step[..., 2]], axis=-1)
 
 
 def laid(points: NDArray, place: NDArray) -> NDArray[np.float64]:
