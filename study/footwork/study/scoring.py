@@ -5,7 +5,8 @@ Every figure is defined in ``measures`` (Control, Transition, Total, heading err
 several traces are over all their ticks and changes, so long traces weigh more.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,7 @@ def score(
     traces: Sequence[Trace],
     contender: Contender | None = None,
     *,
+    instead: Mapping[str, Contender] = MappingProxyType({}),
     showing: Showing | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> dict[str, Any]:
@@ -53,6 +55,8 @@ def score(
             whichever metric built the graph.
         traces: the recorded players.
         contender: what chooses moves, on a graph of its own; the bundle's "steering" table by default.
+        instead: what replays a trace in place of the contender, on the same graph, by the trace's digest: such as a
+            policy that has not seen it. Size and time in a batch are the contender's.
         showing: what is done to poses (it changes what is shown, so foot slide, skating and time only).
         progress: told the share that is done.
 
@@ -64,7 +68,7 @@ def score(
         raise InputError("no traces, expected at least one", "traces")
     contender = contender or SteeringController(bundle.graph, bundle.table("steering"))
     stage = Stage(contender.graph, showing, sigma=_sigma(bundle))
-    replays = replays_of(traces, contender, stage, progress)
+    replays = replays_of(traces, contender, stage, progress, instead)
     shared = {
         **source_report(contender.graph),
         "batch": None if isinstance(contender, Foreseeing) else pace(traces, contender, stage.showing),
@@ -81,6 +85,7 @@ def replays_of(
     contender: Contender,
     stage: Stage,
     progress: Callable[[str, float], None] | None = None,
+    instead: Mapping[str, Contender] = MappingProxyType({}),
 ) -> list[Replay]:
     """All traces replayed, every kernel compiled before the first."""
     replay(traces[0], contender, stage, most_ticks=_COMPILING_TICKS)
@@ -88,7 +93,7 @@ def replays_of(
     for done, trace in enumerate(traces):
         if progress:
             progress("replaying traces", done / len(traces))
-        replays.append(replay(trace, contender, stage))
+        replays.append(replay(trace, instead.get(trace.digest, contender), stage))
     return replays
 
 
