@@ -32,7 +32,7 @@ def test_what_is_out_of_range_is_refused_by_name(option, value):
 
 
 def test_a_standard_graph_records_nothing_of_the_well_connected_one():
-    expected = {"graph": "standard", "threshold": 1.0, "metric": "uniform", "mirror": False}
+    expected = {"graph": "standard", "threshold": 1.0, "metric": "uniform", "mirror": False, "bridges": 0}
     assert GraphOptions(mu=3.0).record() == expected
 
 

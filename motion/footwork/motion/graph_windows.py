@@ -1,5 +1,7 @@
 """The windows of a graph's nodes: the frames round each along its natural edges, laid out as the metric has them."""
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -65,8 +67,12 @@ class GraphWindows:
 
         # (..., LENGTH) -> (..., LENGTH, J, 3)
         """
-        points = forward(self.graph.skeleton, self.graph.root_position[windows], self.graph.rotations[windows])[0]
-        return laid(points, self.places(windows))
+        return laid(self.joints[windows], self.places(windows))
+
+    @cached_property
+    def joints(self) -> NDArray[np.float64]:
+        """Places of the joints of every node in its planar frame, metres.  # (N, J, 3)"""
+        return forward(self.graph.skeleton, self.graph.root_position, self.graph.rotations)[0]
 
 
 def composed(place: NDArray, step: NDArray) -> NDArray[np.float64]:

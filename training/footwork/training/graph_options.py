@@ -11,6 +11,7 @@ GRAPHS = ("standard", "well-connected")
 PAIRINGS = ("plain", "ratio", "neighbours")
 ORDERS = ("frames", "reverse", "random")
 MAX_WEIGHTS = 99
+MAX_BRIDGES = 64
 AUTO_WEIGHTS = 9  # as many at most where they are chosen by need
 # what only the well-connected graph has
 _WELL_CONNECTED = ("mu", "weights", "pairing", "order")
@@ -27,6 +28,8 @@ class GraphOptions:
         metric: What tells how unlike two frames are: uniform, dynamics, torso or joints.
         mirror: Play every clip with left and right exchanged, too: twice the frames, and a turn to one side serves for
             the other.
+        bridges: How many ways from every frame lead at once to each other behaviour, however unlike the frames are; the
+            policy decides which are worth it.
         mu: Paths of a well-connected graph may cost this many times the best one's; more makes it smaller.
         weights: How many motions lie between the two of each pair in a well-connected graph: a number, or auto for as
             many, up to nine, as single hops under the threshold need.
@@ -42,6 +45,7 @@ class GraphOptions:
     threshold: float | Literal["auto"] = 1.0
     metric: str = "uniform"
     mirror: bool = False
+    bridges: int = 0
     mu: float = 5.0
     weights: int | Literal["auto"] = "auto"
     pairing: str = "ratio"
@@ -56,6 +60,8 @@ class GraphOptions:
             raise InputError(f"{self.threshold} is no threshold, expected a positive number or auto", "--threshold")
         if not (math.isfinite(self.mu) and self.mu >= 1.0):
             raise InputError(f"{self.mu}, expected a number from 1 up", "--mu")
+        if not 0 <= self.bridges <= MAX_BRIDGES:
+            raise InputError(f"{self.bridges}, expected 0 to {MAX_BRIDGES}", "--bridges")
         if self.weights != "auto" and not 1 <= self.weights <= MAX_WEIGHTS:
             raise InputError(f"{self.weights}, expected auto or 1 to {MAX_WEIGHTS}", "--weights")
 

@@ -9,6 +9,7 @@ from footwork.motion.clip import Clip
 from footwork.motion.metric import PointCloudMetric
 from footwork.motion.metrics import metric_of
 from footwork.motion.task import SteeringTask
+from footwork.training.bridges import bridged
 from footwork.training.connectivity import connecting_threshold, largest_component, restricted
 from footwork.training.graph_options import GraphOptions
 from footwork.training.memory import available_bytes
@@ -23,7 +24,7 @@ _BYTES_PER_PAIR = 16
 
 
 def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages) -> Built:
-    """The standard motion graph, in the stages "metric" and "graph".
+    """The standard motion graph, in the stages "metric", "graph", "bridges" where asked for, and "component".
 
     Raises:
         InputError: for more frames than memory has room for, or where nothing can be walked without end.
@@ -37,6 +38,10 @@ def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringT
         minima = local_minima(costs, nodes.lengths, options.number)
         uniform = None if options.metric == "uniform" else PointCloudMetric.of_clips(clips)
         whole = standard_graph(nodes, metric, minima, task.smoothness_sigma, uniform)
+    if options.bridges:
+        with stages("bridges") as tell:
+            whole = bridged(whole, options.bridges, task.smoothness_sigma, tell)
+    with stages("component"):
         part = largest_component(whole.node_count, whole.source, whole.target)
         if not part.size:
             raise _unconnected(options.number, minima, local_minima(costs, nodes.lengths), nodes.ends)

@@ -9,6 +9,7 @@ from typing import Any
 from footwork.errors import InputError
 from footwork.motion.clip import Clip
 from footwork.motion.task import SteeringTask
+from footwork.training.bridges import bridged
 from footwork.training.chain_edges import ChainEdges, edges_of_chains
 from footwork.training.chain_graph import graph_of_chains
 from footwork.training.chains import Chains
@@ -26,7 +27,8 @@ Tell = Callable[[float], None]
 
 
 def build_well_connected(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages) -> Built:
-    """The well-connected motion graph, in the stages "interpolation", "transitions", "reduction" and "graph".
+    """The well-connected motion graph, in the stages "interpolation", "transitions", "reduction", "graph",
+    "bridges" where asked for, and "component".
 
     Raises:
         InputError: for more data than memory has room for, or where nothing can be walked without end.
@@ -45,6 +47,10 @@ def build_well_connected(clips: Sequence[Clip], options: GraphOptions, task: Ste
         edges = edges.some(kept.edges)
     with stages("graph"):
         whole = graph_of_chains(clips, chains, kept.nodes, edges, sigma, metric)
+    if options.bridges:
+        with stages("bridges") as tell:
+            whole = bridged(whole, options.bridges, sigma, tell)
+    with stages("component"):
         part = largest_component(whole.node_count, whole.source, whole.target)
         if not part.size:
             problem = f"nothing can be walked without end at threshold {options.number:g}, expected a greater one"
