@@ -11,7 +11,7 @@ class Stages:
     """Runs stages one after the other.
 
     Attributes:
-        seconds: how long each finished stage took, in the order they ran.
+        seconds: how long each finished stage took, all its parts together, in the order they began.
     """
 
     def __init__(self, tell: Progress | None = None) -> None:
@@ -24,5 +24,5 @@ class Stages:
         self._tell(name, 0.0)
         started = time.perf_counter()
         yield lambda share: self._tell(name, share)
-        self.seconds[name] = time.perf_counter() - started
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started
         self._tell(name, 1.0)

@@ -24,7 +24,7 @@ _BYTES_PER_PAIR = 16
 
 
 def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages) -> Built:
-    """The standard motion graph, in the stages "metric", "graph", "bridges" where asked for, and "component".
+    """The standard motion graph, in the stages "metric", "graph" and, where asked for, "bridges".
 
     Raises:
         InputError: for more frames than memory has room for, or where nothing can be walked without end.
@@ -41,7 +41,7 @@ def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringT
     if options.bridges:
         with stages("bridges") as tell:
             whole = bridged(whole, options.bridges, task.smoothness_sigma, tell)
-    with stages("component"):
+    with stages("graph"):
         part = largest_component(whole.node_count, whole.source, whole.target)
         if not part.size:
             raise _unconnected(options.number, minima, local_minima(costs, nodes.lengths), nodes.ends)

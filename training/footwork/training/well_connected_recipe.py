@@ -27,8 +27,8 @@ Tell = Callable[[float], None]
 
 
 def build_well_connected(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages) -> Built:
-    """The well-connected motion graph, in the stages "interpolation", "transitions", "reduction", "graph",
-    "bridges" where asked for, and "component".
+    """The well-connected motion graph, in the stages "interpolation", "transitions", "reduction", "graph" and,
+    where asked for, "bridges".
 
     Raises:
         InputError: for more data than memory has room for, or where nothing can be walked without end.
@@ -50,7 +50,7 @@ def build_well_connected(clips: Sequence[Clip], options: GraphOptions, task: Ste
     if options.bridges:
         with stages("bridges") as tell:
             whole = bridged(whole, options.bridges, sigma, tell)
-    with stages("component"):
+    with stages("graph"):
         part = largest_component(whole.node_count, whole.source, whole.target)
         if not part.size:
             problem = f"nothing can be walked without end at threshold {options.number:g}, expected a greater one"
