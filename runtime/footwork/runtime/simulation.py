@@ -55,7 +55,9 @@ class Simulation:
         bundle: the graph and its "steering" table.
         capacity: how many characters there is room for.
         inertialise: whether transitions are smoothed.
-        controller: what chooses moves on the bundle's graph; steering by the bundle's table where not given.
+        foot_lock: whether feet that stand stay where they are shown.
+        controller: what chooses moves, on the bundle's graph or on one of its own; steering by the bundle's table where
+            not given.
 
     Attributes:
         tick: the tick last made, from 0.
@@ -67,13 +69,19 @@ class Simulation:
     """
 
     def __init__(
-        self, bundle: Bundle, capacity: int, *, inertialise: bool = True, controller: Controller | None = None
+        self,
+        bundle: Bundle,
+        capacity: int,
+        *,
+        inertialise: bool = True,
+        foot_lock: bool = True,
+        controller: Controller | None = None,
     ) -> None:
-        graph = bundle.graph
+        self._controller: Controller = controller or SteeringController(bundle.graph, bundle.table(STEERING))
+        graph = self._controller.graph
         self.bundle = bundle
         self.tick = 0
-        self.world = World(graph, capacity, inertialise=inertialise)
-        self._controller: Controller = controller or SteeringController(graph, bundle.table(STEERING))
+        self.world = World(graph, capacity, inertialise=inertialise, foot_lock=foot_lock)
         self.behaviours = self._controller.present
         if not self.behaviours:
             raise InputError("no frame shows any behaviour, expected at least one", graph.where)
@@ -89,7 +97,7 @@ class Simulation:
 
     def _numbering(self) -> NDArray[np.int32]:
         """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
-        graph = self.bundle.graph
+        graph = self.world.graph
         numbers = [self.behaviours.index(name) if name in self.behaviours else -1 for name in graph.behaviours]
         return np.array([*numbers, -1], dtype=np.int32)
 
@@ -126,13 +134,13 @@ class Simulation:
 
     def give(self, slot: int, command: Command) -> None:
         """Put a command into force, from the next tick on."""
-        shown = self.bundle.graph.behaviour[self.world.node[slot]]
+        shown = self.world.graph.behaviour[self.world.node[slot]]
         self._orders.give(slot, command, int(shown))
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
         world, who, orders = self.world, self._who, self._orders
-        asked = orders.at_tick(self.bundle.graph.behaviour[world.node])
+        asked = orders.at_tick(world.graph.behaviour[world.node])
         chosen = self._chosen.first(len(who))
         situations = Situations(who, world.node[who], world.place[who], orders.heading[who], asked[who])
         self._controller.choose(situations, chosen)
@@ -143,7 +151,7 @@ class Simulation:
 
     def _note_actions(self) -> None:
         """What every character does in this tick; the same in all of its frames."""
-        graph, node = self.bundle.graph, self.world.node
+        graph, node = self.world.graph, self.world.node
         self._behaviour = self._shown_as[graph.behaviour[node]]
         self._clip, self._source_frame = self._clip_of[node], self._frame_of[node]
         self._transition = ~self.world.natural

@@ -6,10 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.errors import FootworkError
+from footwork.motion.alignment import turn as rotated
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
 from footwork.motion.tick import TICK
 from footwork.runtime import posing
+from footwork.runtime.foot_lock import legs_of, lowest_balls, update_locks
+from footwork.runtime.held_feet import hold_feet
 from footwork.runtime.inertialisation import decay, take_jumps, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
 from footwork.runtime.moving import first_wrong_move, make_moves, within_half_turn
@@ -45,6 +48,7 @@ class World:
         graph: what all characters move on.
         capacity: how many characters there is room for.
         inertialise: whether transitions are smoothed; without it the pose jumps.
+        foot_lock: whether feet that stand stay where they are shown; without it they slide as much as transitions do.
         halflife: of what inertialisation adds, s.
 
     Attributes:
@@ -58,7 +62,15 @@ class World:
         WorldError: for a capacity under one or a half-life not above zero.
     """
 
-    def __init__(self, graph: MotionGraph, capacity: int, inertialise: bool = True, halflife: float = HALFLIFE) -> None:
+    def __init__(
+        self,
+        graph: MotionGraph,
+        capacity: int,
+        *,
+        inertialise: bool = True,
+        foot_lock: bool = True,
+        halflife: float = HALFLIFE,
+    ) -> None:
         if capacity < 1:
             raise WorldError(f"capacity is {capacity}, expected at least 1")
         if not (math.isfinite(halflife) and halflife > 0.0):
@@ -67,6 +79,7 @@ class World:
         self.graph = graph
         self.capacity = capacity
         self.inertialise = inertialise
+        self.foot_lock = foot_lock
         self.halflife = halflife
         self.active = np.zeros(capacity, dtype=np.bool_)
         self.node = np.zeros(capacity, dtype=np.int32)
@@ -82,6 +95,12 @@ class World:
         self._old_place = np.zeros_like(self.place)
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
         self._shown_rotations = np.zeros((capacity, joints, 4), dtype=np.float32)
+        self._legs = legs_of(graph.skeleton)
+        self._floor = lowest_balls(graph, self._legs)
+        feet = len(self._legs)
+        self._locked = np.zeros((capacity, feet), dtype=np.bool_)
+        self._anchor = np.zeros((capacity, feet, 3))
+        self._slip = np.zeros((capacity, feet, 2, 3))
         self._motion = (graph.root_position, graph.root_velocity, node_rows(graph))
 
     def spawn(self, node: int, x: float, z: float, yaw: float) -> int:
@@ -102,6 +121,7 @@ class World:
         self.edge[slot], self.natural[slot] = LEAP, True
         self.place[slot] = x, z, within_half_turn(yaw)
         self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = self._glide[slot] = 0
+        self._locked[slot] = self._slip[slot] = 0
         return slot
 
     def remove(self, slot: int) -> None:
@@ -123,12 +143,22 @@ class World:
         """
         self._require(slot)
         _require_finite(x, z, yaw)
+        self._move_locks(slot, (x, z, yaw))
         turn = yaw - self.place[slot, 2]
         self.place[slot] = x, z, within_half_turn(yaw)
         # What these hold is given in the world: the root's offset and velocity, and those of joint 0.
         joint = self._offsets[slot, :, 0]
         for vectors in (*self._roots[slot], joint[:VELOCITY], joint[VELOCITY:]):
             vectors[:] = turned(math.cos(turn), math.sin(turn), vectors)
+
+    def _move_locks(self, slot: int, place: tuple[float, float, float]) -> None:
+        """Take a character's foot locks with it from its place to another."""
+        old, turn = self.place[slot], place[2] - self.place[slot, 2]
+        anchors, slips = self._anchor[slot], self._slip[slot]
+        ahead = np.column_stack(rotated(anchors[:, 0] - old[0], anchors[:, 1] - old[1], turn))
+        anchors[:, :2] = ahead + place[:2]
+        anchors[:, 2] += turn
+        slips[..., 0], slips[..., 1] = rotated(slips[..., 0], slips[..., 1], turn)
 
     def step(self, moves: Moves) -> None:
         """Advance every active character one tick by the move chosen for it.
@@ -153,12 +183,35 @@ class World:
         )
         if wrong >= 0:
             self._raise_wrong_move(wrong, moves)
+        if self.foot_lock:
+            self._renew_locks(moves)
         self._old_node[:] = self.node
         self._old_place[:] = self.place
         make_moves(self.active, moves.target, moves.displacement, moves.adjustment, self.node, self.place, self._glide)
         self.edge[:], self.natural[:] = moves.edge, moves.natural
         if self.inertialise:
             self._carry_over()
+
+    def _renew_locks(self, moves: Moves) -> None:
+        """Keep, take and release foot locks as the tick ends."""
+        position, _, nodes = self._motion
+        update_locks(
+            self.active,
+            self.node,
+            moves.target,
+            self.place,
+            self.graph.contacts,
+            self.halflife,
+            position,
+            nodes,
+            self._offsets,
+            self._roots,
+            self._legs,
+            self.graph.skeleton.offsets,
+            self._locked,
+            self._anchor,
+            self._slip,
+        )
 
     def _carry_over(self) -> None:
         """Let the offsets decay over the tick that ended, then take the jumps of transitions into them."""
@@ -203,7 +256,23 @@ class World:
             self._shown_root,
             self._shown_rotations,
         )
+        if self.foot_lock:
+            self._hold_feet(fraction)
         return self._shown_root, self._shown_rotations
+
+    def _hold_feet(self, fraction: float) -> None:
+        hold_feet(
+            self.active,
+            fraction,
+            self._legs,
+            self.graph.skeleton.offsets,
+            self._floor,
+            self._locked,
+            self._anchor,
+            self._slip,
+            self._shown_root,
+            self._shown_rotations,
+        )
 
     def _require(self, slot: int) -> None:
         if not (0 <= slot < self.capacity and self.active[slot]):

@@ -1,0 +1,59 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from footwork.motion import quaternion
+from footwork.motion.body import default_body
+from footwork.motion.ik import leg, reach
+from footwork.motion.kinematics import forward
+from footwork.runtime.leg_kernels import bent_knee
+
+BODY = default_body()
+SPAN = 0.83
+
+
+def bent(places, turns, limb, target, longest):
+    hip, knee, ankle = (tuple(places[joint]) for joint in limb[:3])
+    return bent_knee(hip, knee, ankle, tuple(turns[limb.upper]), tuple(target), longest)
+
+
+def random_pose(seed: int, spread: float = 0.5):
+    random = np.random.default_rng(seed)
+    rotations = quaternion.from_rotation_vector(random.normal(0.0, spread, (BODY.joint_count, 3)))
+    return forward(BODY, random.normal(0.0, 1.0, 3), rotations), random
+
+
+@given(st.integers(0, 10_000), st.floats(0.0, 0.4), st.sampled_from(["left", "right"]))
+@settings(max_examples=60, deadline=None)
+def test_the_kernel_bends_legs_as_the_array_form_does(seed, away, side):
+    (places, turns), random = random_pose(seed)
+    limb = leg(BODY, side)
+    target = places[limb.tip] + away * random.normal(0.0, 1.0, 3)
+    upper, lower = reach(places, turns, limb, target)
+    whole = np.linalg.norm(BODY.offsets[[limb.lower, limb.tip]], axis=-1).sum()
+    before_upper, before_lower = bent(places, turns, limb, target, whole)
+    for found, own, expected in ((before_upper, limb.upper, upper), (before_lower, limb.lower, lower)):
+        turned = quaternion.multiply(found, turns[own])
+        assert abs(turned @ expected) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_leg_that_is_straight_bends_forward():
+    places, turns = forward(BODY, [0.0, 0.94, 0.0], np.tile(quaternion.IDENTITY, (BODY.joint_count, 1)))
+    limb = leg(BODY, "left")
+    before, _ = bent(places, turns, limb, places[limb.tip] + [0.0, 0.1, 0.0], SPAN)
+    knee = quaternion.rotate(before, places[limb.lower] - places[limb.upper])
+    assert knee[2] > 0.1
+    assert knee[0] == pytest.approx(0.0, abs=1e-9)
+
+
+@given(st.integers(0, 10_000), st.floats(0.5, 0.8))
+@settings(max_examples=30, deadline=None)
+def test_what_is_too_far_is_approached_along_its_own_direction(seed, longest):
+    (places, turns), random = random_pose(seed)
+    limb = leg(BODY, "right")
+    way = quaternion.normalise(random.normal(0.0, 1.0, 3))
+    upper, lower = bent(places, turns, limb, places[limb.upper] + 2.0 * way, longest)
+    knee = quaternion.rotate(upper, places[limb.lower] - places[limb.upper])
+    ankle = knee + quaternion.rotate(lower, places[limb.tip] - places[limb.lower])
+    np.testing.assert_allclose(ankle, longest * way, atol=1e-9)
