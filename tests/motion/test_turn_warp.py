@@ -64,9 +64,17 @@ def test_a_turn_leaves_its_pivot_in_place(x, z, yaw):
 
 def test_turns_go_about_the_feet_that_stand():
     balls = PLACES[:, GRAPH.skeleton.feet[:, 1]][..., [0, 2]]
-    for at, (left, right) in enumerate(STANDING):
-        expected = [balls[at, foot] for foot, stands in enumerate((left, right)) if stands]
-        np.testing.assert_allclose(WARP.pivot[at], np.mean(expected, axis=0) if expected else [0.0, 0.0], atol=1e-12)
+    for at, stands in enumerate(STANDING):
+        if stands.any():
+            np.testing.assert_allclose(WARP.pivot[at], balls[at][stands].mean(axis=0), atol=1e-12)
+
+
+@given(node, small, small)
+@settings(max_examples=60, deadline=None)
+def test_in_flight_no_pivot_is_cheaper(first, x, z):
+    if not STANDING[first].any():
+        elsewhere = adjustment_cost(WARP.moments[first], turned(WARP.pivot[first] + [x, z], 0.1))
+        assert WARP.price[first] * 4.0 * np.sin(0.05) ** 2 <= elsewhere + 1e-12
 
 
 def test_compiled_callers_get_the_same_numbers():

@@ -7,7 +7,8 @@ after the step (convention)::
     s = sum W_k w |R p + t - p|^2 / UNIT^2
       = 4 sin^2(yaw / 2) M2 + 2 t . (R - 1) (Mx, Mz) + |t|^2 M0
 
-so four moments of a node give it for every adjustment. A turn about a standing foot leaves that foot where it is.
+so four moments of a node give it for every adjustment. A turn about a standing foot leaves that foot where it is; in
+flight a turn costs least about (Mx, Mz) / M0.
 """
 
 from dataclasses import dataclass
@@ -30,7 +31,7 @@ class TurnWarp:
 
     Args:
         pivot: the point (x, z) that a turn goes about, metres: the ball of the foot that stands, midway between the
-            balls where both do, under the root where none does.  # (N, 2)
+            balls where both do; where none does, that about which a turn costs least.  # (N, 2)
         moments: M0, Mx, Mz, M2, the sums of 1, x, z and x^2 + z^2 over the window's later frames by the uniform
             metric's weights, divided by UNIT^2.  # (N, 4)
         price: s of a turn about the pivot, divided by 4 sin^2(yaw / 2).  # (N,)
@@ -47,8 +48,8 @@ def turn_warp(graph: MotionGraph) -> TurnWarp:
     The frames after a node are those along natural edges; where there is none, the last is held.
     """
     places = forward(graph.skeleton, graph.root_position, graph.rotations)[0][..., [0, 2]]  # (N, J, 2)
-    pivot = _pivots(places[:, graph.skeleton.feet[:, 1]], graph.contacts)
     moments = _moments_ahead(graph, _moments_of_poses(places))
+    pivot = _pivots(places[:, graph.skeleton.feet[:, 1]], graph.contacts, moments[:, 1:3] / moments[:, :1])
     price = moments[:, 3] - 2.0 * (pivot * moments[:, 1:3]).sum(axis=-1) + moments[:, 0] * (pivot**2).sum(axis=-1)
     return TurnWarp(*(frozen(array, np.float64) for array in (pivot, moments, price)))
 
@@ -80,10 +81,13 @@ def turn_about(pivot_x, pivot_z, yaw):
     return pivot_x * less_cosine - pivot_z * sine, pivot_x * sine + pivot_z * less_cosine, yaw
 
 
-def _pivots(balls: NDArray[np.float64], contacts: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """The mean of the standing balls, zero where none stands.  # (N, feet, 2), (N, feet) -> (N, 2)"""
+def _pivots(
+    balls: NDArray[np.float64], contacts: NDArray[np.bool_], otherwise: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The mean of the standing balls, or else another point.  # (N, feet, 2), (N, feet), (N, 2) -> (N, 2)"""
     standing = contacts.sum(axis=-1, keepdims=True)
-    return (balls * contacts[..., None]).sum(axis=1) / np.maximum(standing, 1)
+    mean = (balls * contacts[..., None]).sum(axis=1) / np.maximum(standing, 1)
+    return np.where(standing > 0, mean, otherwise)
 
 
 def _moments_of_poses(places: NDArray[np.float64]) -> NDArray[np.float64]:
