@@ -12,10 +12,12 @@ class Showing:
 
     Args:
         inertialise: whether transitions are smoothed.
+        foot_lock: whether standing feet are kept where they stand.
     """
 
     inertialise: bool = True
+    foot_lock: bool = True
 
     def world(self, graph: MotionGraph, capacity: int) -> World:
         """An empty world that shows so."""
-        return World(graph, capacity, inertialise=self.inertialise)
+        return World(graph, capacity, inertialise=self.inertialise, foot_lock=self.foot_lock)
