@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -8,13 +9,17 @@ import pytest
 from footwork.controllers.controller import Situations
 from footwork.controllers.steering import SteeringController, WrongQuestion
 from footwork.errors import InputError
+from footwork.motion.actions import actions_of
 from footwork.motion.body import default_body
 from footwork.motion.graph import MotionGraph, captured
-from footwork.motion.lookahead import edge_value
+from footwork.motion.lookahead import best_action
 from footwork.motion.moves import no_moves
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
+from footwork.motion.turn_warp import turn_warp, turned
 from footwork.runtime.world import World
+from footwork.training.value_iteration import solve
+from motion_samples import ring_graph
 
 TURN = math.radians(1.5)
 STRAIGHT, LEFT, RIGHT, STAND = range(4)
@@ -50,23 +55,11 @@ def loops() -> MotionGraph:
 def solved(graph: MotionGraph, sweeps: int = 120) -> np.ndarray:
     """The values, by plain sweeps over every state."""
     values = np.zeros((graph.node_count, len(BEHAVIOURS), TASK.heading_bins))
+    choices = actions_of(graph, TASK)
     for _ in range(sweeps):
         old = values.copy()
         for (node, asked, bin_), _ in np.ndenumerate(values):
-            values[node, asked, bin_] = max(
-                edge_value(
-                    float(TASK.headings[bin_]),
-                    asked,
-                    bool(TASK.headed[asked]),
-                    int(graph.behaviour[graph.target[edge]]),
-                    float(graph.displacement[edge, 2]),
-                    float(graph.smoothness[edge]),
-                    old[graph.target[edge], asked],
-                    TASK.heading_sigma,
-                    TASK.discount,
-                )
-                for edge in range(graph.edge_start[node], graph.edge_start[node + 1])
-            )
+            values[node, asked, bin_] = best_action(*choices, old, node, asked, float(TASK.headings[bin_]), False)[0]
     return values.astype(np.float32)
 
 
@@ -146,3 +139,70 @@ def test_tables_that_do_not_fit_are_refused():
     other = SteeringTask(behaviours=("stop", "run", "walk", "jump"), heading_bins=16)
     with pytest.raises(InputError, match="behaviours stop, run, walk, jump, expected"):
         SteeringController(graph, PolicyTable(other, values, 0.0, 5, True))
+
+
+def straight_on() -> MotionGraph:
+    """Two frames that walk straight on, each followed by the other; the left foot stands at one, the right at both."""
+    graph = ring_graph(2, behaviours=BEHAVIOURS)
+    return replace(graph, contacts=np.array([[True, False], [True, True]]))
+
+
+def warping(graph: MotionGraph, **options) -> SteeringController:
+    task = SteeringTask(behaviours=BEHAVIOURS, warp=math.radians(6.0), warp_levels=3, **options)
+    return SteeringController(graph, solve(graph, task))
+
+
+def turn_chosen(controller: SteeringController, degrees: float, moves) -> float:
+    heading, asked = np.array([math.radians(degrees)]), np.ones(1, np.int32)
+    place = np.zeros((1, 3))
+    controller.choose(Situations(np.zeros(1, np.intp), np.zeros(1, np.int32), place, heading, asked), moves)
+    return math.degrees(moves.adjustment[0, 2])
+
+
+def test_extra_turns_go_about_the_pivot_of_the_frame_come_to():
+    graph, moves = straight_on(), no_moves(1)
+    assert turn_chosen(warping(graph), 90.0, moves) == pytest.approx(6.0)
+    pivot = turn_warp(graph).pivot[1]
+    assert np.abs(pivot).max() > 0.01
+    np.testing.assert_allclose(moves.adjustment[0], turned(pivot, math.radians(6.0)))
+    np.testing.assert_allclose(moves.displacement[0], graph.displacement[0])
+
+
+@pytest.mark.parametrize("degrees", [2.0, -3.5, 5.0])
+def test_exact_facing_turns_right_onto_the_heading_and_can_be_switched_off(degrees):
+    graph, moves = straight_on(), no_moves(1)
+    controller = warping(graph)
+    assert turn_chosen(controller, degrees, moves) == pytest.approx(degrees)
+    levels = SteeringController(graph, controller.table, exact_facing=False)
+    assert turn_chosen(levels, degrees, moves) in (pytest.approx(0.0), pytest.approx(math.copysign(6.0, degrees)))
+
+
+def test_a_share_of_none_turns_none():
+    assert turn_chosen(warping(straight_on(), warp_share={"stop": 1.0}), 90.0, no_moves(1)) == 0.0
+
+
+def test_within_a_segment_a_decision_holds_for_each_character_by_itself():
+    graph = straight_on()
+    controller = warping(graph, segment_ticks=3)
+    moves, asked, place = no_moves(2), np.ones(2, np.int32), np.zeros((2, 3))
+    turns = []
+    controller.begin(5)
+    controller.begin(2)
+    for tick in range(7):
+        if tick == 4:
+            controller.begin(2)
+        situations = Situations(np.array([5, 2]), np.zeros(2, np.int32), place, np.full(2, 1.5), asked)
+        controller.choose(situations, moves)
+        turns.append(np.degrees(moves.adjustment[:, 2]).round().tolist())
+    assert [turn[0] for turn in turns] == [6.0, 0.0, 0.0, 6.0, 0.0, 0.0, 6.0]
+    assert [turn[1] for turn in turns] == [6.0, 0.0, 0.0, 6.0, 6.0, 0.0, 0.0]
+
+
+def test_of_equal_edges_the_first_is_taken():
+    graph = loops()
+    level = PolicyTable(TASK, np.zeros((4, 4, 16), np.float32), 0.0, 1, True)
+    moves = no_moves(1)
+    asked = np.full(1, BEHAVIOURS.index("jump"), np.int32)
+    place = np.zeros((1, 3))
+    SteeringController(graph, level).choose(Situations(np.arange(1), np.ones(1, int), place, np.zeros(1), asked), moves)
+    assert moves.edge[0] == graph.edge_start[1]

@@ -19,26 +19,6 @@ def test_the_task_is_that_of_the_papers():
     assert math.degrees(TASK.heading_sigma) == pytest.approx(30.0)
 
 
-def test_of_equal_edges_the_first_is_taken():
-    best = np.full(1, -1, dtype=np.int32)
-    lookahead.best_edges(
-        node=np.zeros(1, np.int32),
-        heading=np.zeros(1),
-        wanted=np.zeros(1, np.int32),
-        headed=np.zeros(1, np.bool_),
-        sigma=1.0,
-        discount=0.9,
-        values=np.ones((2, 1, 4), np.float32),
-        edge_start=np.array([0, 3, 3], np.int32),
-        target=np.array([0, 1, 1], np.int32),
-        behaviour=np.array([-1, 0], np.int16),
-        turn=np.zeros(3, np.float32),
-        smoothness=np.ones(3, np.float32),
-        best=best,
-    )
-    assert best[0] == 1
-
-
 def test_quality_is_a_gaussian_of_the_heading_where_the_heading_counts():
     deltas = np.radians([0.0, 30.0, -30.0, 330.0, 180.0])
     expected = [1.0, math.exp(-0.5), math.exp(-0.5), math.exp(-0.5), math.exp(-18.0)]
@@ -60,12 +40,27 @@ def test_the_kernel_gives_the_same_quality():
 
 
 def test_interpolation_is_periodic_and_exact_at_the_bins():
-    values = np.random.default_rng(1).normal(size=TASK.heading_bins)
-    for place, value in zip(TASK.headings, values, strict=True):
-        assert lookahead.interpolate(values, place) == pytest.approx(value)
-        assert lookahead.interpolate(values, place + 4 * math.pi) == pytest.approx(value)
+    values = np.random.default_rng(1).normal(size=(2, 3, TASK.heading_bins))
+    row = values[1, 2]
+    for place, value in zip(TASK.headings, row, strict=True):
+        assert lookahead.interpolate(values, 1, 2, place) == pytest.approx(value)
+        assert lookahead.interpolate(values, 1, 2, place + 4 * math.pi) == pytest.approx(value)
     middle = math.pi - math.pi / TASK.heading_bins
-    assert lookahead.interpolate(values, middle) == pytest.approx(0.5 * (values[-1] + values[0]))
+    assert lookahead.interpolate(values, 1, 2, middle) == pytest.approx(0.5 * (row[-1] + row[0]))
+
+
+def test_rewards_of_a_tick():
+    assert lookahead.reward_of(0.5, 0.8, False, 3.0) == pytest.approx(0.4)
+    assert lookahead.reward_of(0.5, 0.8, True, 3.0) == pytest.approx(0.5 + 3.0 * -0.2)
+
+
+def test_extra_turns_are_levels_of_a_limit_by_behaviour():
+    task = SteeringTask(warp=math.radians(6.0), warp_levels=5)
+    assert task.turn_levels.tolist() == [0.0, -0.5, 0.5, -1.0, 1.0]
+    limits = np.degrees(task.turn_limit(np.array([STOP, WALK, RUN, JUMP, -1])))
+    assert limits == pytest.approx([1.5, 6.0, 6.0, 3.0, 0.0])
+    assert SteeringTask().turn_levels.tolist() == [0.0]
+    assert not SteeringTask().turn_limit(np.arange(4)).any()
 
 
 @pytest.mark.parametrize(
@@ -76,6 +71,18 @@ def test_interpolation_is_periodic_and_exact_at_the_bins():
         ("discount", 1.0),
         ("heading_sigma", 0.0),
         ("smoothness_sigma", math.nan),
+        ("discount", math.nan),
+        ("reward", "greatest"),
+        ("weight", 0.0),
+        ("weight", math.inf),
+        ("warp", math.radians(6.1)),
+        ("warp", -0.1),
+        ("warp", math.nan),
+        ("warp_share", {"walk": 1.5}),
+        ("warp_levels", 4),
+        ("warp_levels", 27),
+        ("segment_ticks", 0),
+        ("segment_ticks", 31),
     ],
 )
 def test_a_senseless_task_is_refused(name, value):

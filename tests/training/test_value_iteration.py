@@ -1,224 +1,185 @@
 import math
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 import pytest
 
+from exact_steering import ExactSteering, random_steering_graph
+from footwork.controllers.controller import Situations
+from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
-from footwork.motion.graph import MotionGraph
-from footwork.motion.lookahead import best_edges, edge_value
+from footwork.motion import threads
+from footwork.motion.actions import actions_of, onward_edges
+from footwork.motion.moves import no_moves
+from footwork.motion.player_model import PlayerModel
+from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
-from footwork.training.value_iteration import solve
+from footwork.training import value_iteration
+from footwork.training.sweeper import Sweeper
+from footwork.training.value_iteration import fixed_point, solve
 from motion_samples import ring_graph
 
 TASK = SteeringTask(behaviours=("stop", "walk"), heading_bins=12, discount=0.9)
+WARPED = replace(TASK, warp=math.radians(6.0), warp_share={"walk": 1.0, "stop": 0.5}, warp_levels=3)
+TASKS = {
+    "product": TASK,
+    "sum": replace(TASK, reward="sum", weight=0.8),
+    "warped": WARPED,
+    "warped sum": replace(WARPED, reward="sum", weight=1.3),
+    "segments": replace(TASK, segment_ticks=3),
+    "warped segments": replace(WARPED, segment_ticks=2),
+}
 
 
-def random_graph(seed: int, nodes: int = 5, degree: int = 2) -> MotionGraph:
-    """A graph whose nodes have 1 to ``degree`` edges of random turns and smoothness."""
-    rng = np.random.default_rng(seed)
-    counts = rng.integers(1, degree + 1, nodes)
-    edges = int(counts.sum())
-    return replace(
-        ring_graph(nodes),
-        behaviour=rng.integers(-1, 2, nodes).astype(np.int16),
-        edge_start=np.concatenate([[0], np.cumsum(counts)]).astype(np.int32),
-        target=rng.integers(0, nodes, edges).astype(np.int32),
-        cost=np.zeros(edges, np.float32),
-        smoothness=rng.uniform(0.3, 1.0, edges).astype(np.float32),
-        displacement=np.column_stack([np.zeros((edges, 2)), rng.uniform(-3.5, 3.5, edges)]).astype(np.float32),
-        natural=np.ones(edges, np.bool_),
-    )
+def fickle_player(seed: int = 0) -> PlayerModel:
+    change = np.random.default_rng(seed).random((2, 2, 12)) ** 4
+    change[[0, 1], [0, 1], 0] += 5.0
+    return PlayerModel(("stop", "walk"), change / change.sum(axis=(1, 2), keepdims=True))
 
 
-def backup(graph, task, values):
-    """One sweep written out with the runtime's own edge_value."""
-    new = np.empty_like(values)
-    for node, wanted, h in product(*(range(length) for length in values.shape)):
-        worth = []
-        for edge in range(graph.edge_start[node], graph.edge_start[node + 1]):
-            there = graph.target[edge]
-            worth.append(
-                edge_value(
-                    task.headings[h],
-                    wanted,
-                    bool(task.headed[wanted]),
-                    int(graph.behaviour[there]),
-                    float(graph.displacement[edge, 2]),
-                    float(graph.smoothness[edge]),
-                    values[there, wanted],
-                    task.heading_sigma,
-                    task.discount,
-                )
-            )
-        new[node, wanted, h] = max(worth)
-    return new
+PLAYERS = {"persistent": None, "fickle": fickle_player()}
 
 
-def policy_values(graph, task, choice):
-    """The values of always taking edge choice[node, b, h], by a dense linear solve."""
-    shape = choice.shape
-    count = choice.size
-    matrix, reward = np.eye(count), np.zeros(count)
-    for state in range(count):
-        node, wanted, h = np.unravel_index(state, shape)
-        edge = choice[node, wanted, h]
-        there = graph.target[edge]
-        yaw = float(graph.displacement[edge, 2])
-        after = task.headings[h] - yaw
-        shown = graph.behaviour[there]
-        reward[state] = graph.smoothness[edge] * task.control_quality(np.array(after), np.array(wanted), shown)
-        place = (after + math.pi) / (2 * math.pi) * shape[2]
-        low = math.floor(place)
-        for bin_, weight in ((low, 1 - (place - low)), (low + 1, place - low)):
-            following = np.ravel_multi_index((there, wanted, bin_ % shape[2]), shape)
-            matrix[state, following] -= task.discount * weight
-    return np.linalg.solve(matrix, reward).reshape(shape)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_values_are_a_fixed_point_of_the_runtimes_lookahead(seed):
-    graph = random_graph(seed, 8, 3)
-    values = solve(graph, TASK, tolerance=1e-10).values.astype(float)
-    np.testing.assert_allclose(backup(graph, TASK, values), values, atol=1e-5)
+@pytest.mark.parametrize("player", PLAYERS)
+@pytest.mark.parametrize("name", TASKS)
+def test_values_are_those_of_policy_iteration_with_dense_solves(name, player):
+    task, model = TASKS[name], PLAYERS[player]
+    graph = random_steering_graph(3, nodes=6, degree=3)
+    table = solve(graph, task, player=model, tolerance=1e-6)
+    assert table.converged
+    np.testing.assert_allclose(table.values, ExactSteering(graph, task, model).solved(), atol=1e-5)
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_without_choice_values_solve_the_linear_system(seed):
-    graph = random_graph(seed, 6, 1)
-    shape = (6, 2, 12)
-    choice = np.broadcast_to(graph.edge_start[:-1, None, None], shape)
-    table = solve(graph, TASK, tolerance=1e-9)
-    np.testing.assert_allclose(table.values, policy_values(graph, TASK, choice), atol=1e-5)
+def test_values_of_other_graphs_too(seed):
+    graph = random_steering_graph(seed, nodes=7, degree=4)
+    table = solve(graph, WARPED, tolerance=1e-6)
+    np.testing.assert_allclose(table.values, ExactSteering(graph, WARPED).solved(), atol=1e-5)
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_no_policy_is_worth_more(seed):
-    task = SteeringTask(behaviours=("stop", "walk"), heading_bins=4, discount=0.8)
-    graph = random_graph(seed, 2, 2)
-    rows = [range(graph.edge_start[n], graph.edge_start[n + 1]) for n in range(2)]
-    best = np.full((2, 2, 4), -np.inf)
-    for walk in product(*(row for row in rows for _ in range(4))):
-        choice = np.broadcast_to(graph.edge_start[:-1, None, None], (2, 2, 4)).copy()
-        choice[:, 1] = np.reshape(walk, (2, 4))
-        best = np.maximum(best, policy_values(graph, task, choice))
-    table = solve(graph, task, tolerance=1e-10)
-    np.testing.assert_allclose(table.values[:, 1], best[:, 1], atol=1e-5)
+@pytest.mark.parametrize("name", ["product", "warped sum"])
+@pytest.mark.parametrize("player", PLAYERS)
+def test_the_tables_greedy_policy_is_the_exact_one(name, player):
+    task, model = TASKS[name], PLAYERS[player]
+    graph = random_steering_graph(11, nodes=6, degree=3)
+    exact = ExactSteering(graph, task, model)
+    worth = exact.action_values(exact.solved())
+    controller = SteeringController(graph, solve(graph, task, player=model, tolerance=1e-6), exact_facing=False)
+    states = np.array(list(np.ndindex(*exact.shape)))
+    edge, turn = chosen(controller, states[:, 0], states[:, 1], task.headings[states[:, 2]])
+    number = {(e, round(t, 9)): action for action, (e, t) in enumerate(exact.choices())}
+    actions = [number[e, round(t, 9)] for e, t in zip(edge.tolist(), turn.tolist(), strict=True)]
+    best = worth.max(axis=0)
+    taken = worth[actions, *states.T].reshape(exact.shape)
+    np.testing.assert_allclose(taken, best, atol=1e-5)
+    alone = (worth > best - 1e-4).sum(axis=0) == 1  # where nothing comes near, there is no question of ties
+    assert alone.mean() > 0.5
+    np.testing.assert_array_equal(np.reshape(actions, exact.shape)[alone], worth.argmax(axis=0)[alone])
+
+
+def chosen(controller, node, wanted, heading):
+    """Edges and extra turns at states, of characters that face along z."""
+    count = len(node)
+    moves, place = no_moves(count), np.zeros((count, 3))
+    kinds = node.astype(np.int32), wanted.astype(np.int32)
+    controller.choose(Situations(np.arange(count), kinds[0], place, heading, kinds[1]), moves)
+    return moves.edge, moves.adjustment[:, 2]
+
+
+def test_policy_iteration_comes_to_what_plain_sweeps_come_to():
+    graph = random_steering_graph(5, nodes=30, degree=3)
+    actions, onward = actions_of(graph, TASK), onward_edges(graph)
+    quick = fixed_point(actions, onward, TASK, tolerance=1e-9)
+    with value_iteration.ThreadPoolExecutor(1) as pool:
+        plain = Sweeper(actions, onward, TASK, None, np.float64, pool)
+        while plain.improve() >= 1e-9:
+            pass
+    np.testing.assert_allclose(quick.values, plain.values, atol=1e-8)
+    assert quick.improvements < plain.sweeps / 5
+
+
+def test_float32_sweeps_come_to_what_float64_ones_do():
+    graph = random_steering_graph(6, nodes=30, degree=3)
+    actions, onward = actions_of(graph, TASK), onward_edges(graph)
+    fine, coarse = (fixed_point(actions, onward, TASK, tolerance=tolerance) for tolerance in (1e-9, 1e-4))
+    assert (fine.values.dtype, coarse.values.dtype) == (np.float64, np.float32)
+    np.testing.assert_allclose(coarse.values, fine.values, atol=1e-4 * 0.9 / 0.1)
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-3])
+def test_true_values_lie_within_the_stated_error(tolerance):
+    graph = random_steering_graph(2, nodes=6, degree=3)
+    table = solve(graph, WARPED, player=fickle_player(), tolerance=tolerance)
+    true = ExactSteering(graph, WARPED, fickle_player()).solved()
+    assert table.converged
+    assert table.residual < tolerance
+    assert table.error_bound == pytest.approx(10.0 * table.residual)
+    assert np.abs(table.values - true).max() <= table.error_bound
+
+
+def test_the_stated_residual_is_that_of_the_exact_backup():
+    graph = random_steering_graph(4, nodes=6, degree=3)
+    for task in (WARPED, replace(TASK, segment_ticks=3)):
+        table = solve(graph, task, player=fickle_player(), max_sweeps=4)
+        exact = ExactSteering(graph, task, fickle_player())
+        following = exact.action_values(table.values.astype(float)).max(axis=0)
+        reward, follows = exact.onward()
+        for _ in range(task.segment_ticks - 1):
+            following = reward + task.discount * follows @ (exact.expect @ following.ravel())
+        backed = (exact.expect @ following.ravel()).reshape(exact.shape)
+        assert table.residual == pytest.approx(np.abs(backed - table.values).max(), rel=1e-6)
+
+
+def test_results_do_not_depend_on_threads(monkeypatch):
+    graph = random_steering_graph(8, nodes=60, degree=3)
+    values = []
+    for count in (1, 3, threads.THREADS):
+        monkeypatch.setattr(value_iteration, "THREADS", count)
+        values.append(solve(graph, WARPED, player=fickle_player()).values)
+    np.testing.assert_array_equal(values[0], values[1])
+    np.testing.assert_array_equal(values[0], values[2])
 
 
 def test_a_single_looping_node_has_its_closed_form():
-    table = solve(ring_graph(1), SteeringTask(behaviours=("stop", "walk")), tolerance=1e-9)
+    table = solve(ring_graph(1), SteeringTask(behaviours=("stop", "walk")), tolerance=1e-5)
     task = table.task
     reward = np.exp(-0.5 * (task.headings / task.heading_sigma) ** 2)
-    np.testing.assert_allclose(table.values[0, 1], reward / (1 - task.discount), atol=1e-4)
+    np.testing.assert_allclose(table.values[0, 1], reward / (1 - task.discount), atol=1e-3)
     assert not table.values[0, 0].any()
 
 
 def test_values_far_from_the_tolerance_are_said_to_be_unconverged():
-    table = solve(random_graph(0), TASK, max_sweeps=3)
-    assert (table.converged, table.sweeps) == (False, 3)
-    with pytest.raises(InputError, match=r"not converged: residual .* after 3 sweeps"):
+    table = solve(random_steering_graph(0), TASK, max_sweeps=2)
+    assert (table.converged, table.sweeps) == (False, 2)
+    with pytest.raises(InputError, match=r"not converged: residual .* after 2 sweeps"):
         table.require_converged()
 
 
-def test_sweeps_residual_and_progress_are_reported():
+def test_progress_goes_from_nothing_to_all():
     told: list[float] = []
-    table = solve(random_graph(1), TASK, progress=told.append)
-    assert table.converged
-    assert 0.0 < table.residual < 1e-3
-    assert len(told) == table.sweeps
-    assert told == sorted(told)
+    assert solve(random_steering_graph(1), TASK, progress=told.append).converged
     assert told[-1] == 1.0
+    assert all(0.0 <= share <= 1.0 for share in told)
 
 
 def test_a_turn_slower_than_a_bin_is_not_stuck():
     """conventions.md 5: with nearest-bin rounding a turn of 1.5 degrees a frame never leaves its bin."""
-    slow = math.radians(1.5)
-    task = SteeringTask(behaviours=("walk",))
-    ring = ring_graph(2, behaviours=("walk",))
-    turns = np.array([[0, 0.04, 0.0], [0, 0.04, slow]] * 2, np.float32)
+    slow, asked = math.radians(1.5), math.radians(85.0)
     graph = replace(
-        ring,
+        ring_graph(2, behaviours=("walk",)),
         edge_start=np.array([0, 2, 4], np.int32),
         target=np.array([0, 1, 0, 1], np.int32),
         cost=np.zeros(4, np.float32),
         smoothness=np.ones(4, np.float32),
-        displacement=turns,
+        displacement=np.array([[0, 0.04, 0.0], [0, 0.04, slow]] * 2, np.float32),
         natural=np.ones(4, np.bool_),
     )
-    table = solve(graph, task)
-    node, facing, best = np.zeros(1, np.int32), 0.0, np.zeros(1, np.int32)
-    ticks = 0
-    while math.radians(85.0) - facing > slow and ticks < 200:
-        heading = np.array([math.radians(85.0) - facing])
-        best_edges(
-            node,
-            heading,
-            np.zeros(1, np.int32),
-            task.headed,
-            task.heading_sigma,
-            task.discount,
-            table.values,
-            graph.edge_start,
-            graph.target,
-            graph.behaviour,
-            graph.displacement[:, 2],
-            graph.smoothness,
-            best,
-        )
-        facing += float(graph.displacement[best[0], 2])
-        node = graph.target[best]
-        ticks += 1
+    controller = SteeringController(graph, solve(graph, SteeringTask(behaviours=("walk",))))
+    node, facing, ticks = 0, 0.0, 0
+    while asked - facing > slow and ticks < 200:
+        edge, _ = chosen(controller, np.array([node]), np.zeros(1), np.array([asked - facing]))
+        facing, node, ticks = facing + float(graph.displacement[edge[0], 2]), int(graph.target[edge[0]]), ticks + 1
     assert ticks <= 57
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_the_table_chooses_as_the_exact_values_do(seed):
-    graph = random_graph(seed, 8, 3)
-    exact = np.zeros((8, 2, 12))
-    for _ in range(250):
-        exact = backup(graph, TASK, exact)
-    table = solve(graph, TASK, tolerance=1e-7)
-    for wanted, heading in product((0, 1), np.linspace(-3, 3, 7)):
-        nodes = np.arange(8, dtype=np.int32)
-        chosen = []
-        for values in (table.values, exact):
-            best = np.zeros(8, np.int32)
-            best_edges(
-                nodes,
-                np.full(8, heading),
-                np.full(8, wanted),
-                TASK.headed,
-                TASK.heading_sigma,
-                TASK.discount,
-                values,
-                graph.edge_start,
-                graph.target,
-                graph.behaviour,
-                graph.displacement[:, 2],
-                graph.smoothness,
-                best,
-            )
-            chosen.append(_worth(graph, best, wanted, heading, exact))
-        np.testing.assert_allclose(chosen[0], chosen[1], atol=1e-5)
-
-
-def _worth(graph, edges, wanted, heading, values):
-    return [
-        edge_value(
-            heading,
-            wanted,
-            bool(TASK.headed[wanted]),
-            int(graph.behaviour[graph.target[edge]]),
-            float(graph.displacement[edge, 2]),
-            float(graph.smoothness[edge]),
-            values[graph.target[edge], wanted],
-            TASK.heading_sigma,
-            TASK.discount,
-        )
-        for edge in edges
-    ]
 
 
 def test_a_graph_that_the_task_does_not_fit_is_refused():
@@ -227,3 +188,25 @@ def test_a_graph_that_the_task_does_not_fit_is_refused():
     chain = replace(ring_graph(4), edge_start=np.array([0, 2, 2, 3, 4], np.int32))
     with pytest.raises(InputError, match="node 1 leads nowhere"):
         solve(chain, SteeringTask(behaviours=("stop", "walk")))
+
+
+@pytest.mark.parametrize("reward", ["product", "sum"])
+@pytest.mark.parametrize(("shown", "said"), [(-1, "shows none of"), (0, "shows stop of")])
+def test_a_reward_that_is_the_same_whatever_is_done_is_refused(reward, shown, said):
+    graph = replace(ring_graph(4), behaviour=np.full(4, shown, np.int16))
+    with pytest.raises(InputError, match=f"the reward is the same whatever is done.*{said}"):
+        solve(graph, SteeringTask(behaviours=("stop", "walk"), reward=reward))
+
+
+def test_a_discount_of_one_is_refused():
+    with pytest.raises(InputError, match=r"discount is 1\.0, expected 0 <= discount < 1"):
+        SteeringTask(discount=1.0)
+
+
+def test_a_player_model_of_other_axes_is_refused():
+    with pytest.raises(InputError, match="12 heading bins, the task has 16"):
+        solve(ring_graph(4), replace(TASK, heading_bins=16), player=fickle_player())
+    values = np.zeros((4, 2, 12), np.float32)
+    other = PlayerModel(("walk", "stop"), fickle_player().change)
+    with pytest.raises(InputError, match="behaviours walk, stop, the task has stop, walk"):
+        PolicyTable(TASK, values, 0.0, 1, True, other)

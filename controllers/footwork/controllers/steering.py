@@ -1,4 +1,4 @@
-"""Steering: the edge that a policy table makes best for every character, by one-step lookahead."""
+"""Steering: the edge and the extra turn that a policy table makes best for every character, by one-step lookahead."""
 
 import numba
 import numpy as np
@@ -6,10 +6,12 @@ from numpy.typing import NDArray
 
 from footwork.controllers.controller import Situations, present_behaviours
 from footwork.errors import FootworkError, InputError
+from footwork.motion.actions import Actions, actions_of, onward_edges
 from footwork.motion.graph import MotionGraph
-from footwork.motion.lookahead import best_edges
+from footwork.motion.lookahead import best_action
 from footwork.motion.moves import Moves, along_edges
 from footwork.motion.table import PolicyTable
+from footwork.motion.turn_warp import turn_about, turn_warp
 
 
 class WrongQuestion(FootworkError):  # noqa: N818  (it reads as what happened)
@@ -25,18 +27,88 @@ def first_outside(index: NDArray, length: int) -> int:
     return -1
 
 
+@numba.njit(cache=True, nogil=True)
+def decide(
+    actions: Actions,
+    values: NDArray,
+    onward: NDArray,
+    segment_ticks: int,
+    exact: bool,
+    slot: NDArray,
+    node: NDArray,
+    place: NDArray,
+    heading: NDArray,
+    behaviour: NDArray,
+    held: NDArray,
+    edge: NDArray,
+    turn: NDArray,
+) -> None:
+    """Write the edge and the extra turn of each of C characters, going on by itself where a decision still holds.
+
+    Args:
+        actions: of the graph and the task.
+        values: PolicyTable.values.  # (N, B, H)
+        onward: ``onward_edges``.  # (N,)
+        segment_ticks: SteeringTask.segment_ticks.
+        exact: whether turns may lie between the levels.
+        slot: as of Situations, and so are node, place, heading and behaviour.  # (C,)
+        held: ticks by slot for which the last decision still holds, counted down here.  # (slots,)
+        edge: the result.  # (C,) int32
+        turn: the result, radians.  # (C,)
+    """
+    edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
+    for who in range(node.shape[0]):
+        if held[slot[who]] > 0:
+            held[slot[who]] -= 1
+            edge[who], turn[who] = onward[node[who]], 0.0
+        else:
+            held[slot[who]] = segment_ticks - 1
+            left = heading[who] - place[who, 2]
+            found = best_action(
+                edge_start,
+                target,
+                yaw,
+                smoothness,
+                shown,
+                turn_limit,
+                price,
+                level,
+                turn_smoothness,
+                headed,
+                rules,
+                values,
+                node[who],
+                behaviour[who],
+                left,
+                exact,
+            )
+            edge[who], turn[who] = found[1], found[2]
+
+
+@numba.njit(cache=True, nogil=True)
+def turn_moves(pivot: NDArray, target: NDArray, turn: NDArray, adjustment: NDArray) -> None:
+    """Write the adjustments (C, 3) that turn characters about the pivots (N, 2) of the frames they come to."""
+    for who in range(turn.shape[0]):
+        if turn[who] != 0.0:
+            there = target[who]
+            x, z, yaw = turn_about(pivot[there, 0], pivot[there, 1], turn[who])
+            adjustment[who, 0], adjustment[who, 1], adjustment[who, 2] = x, z, yaw
+
+
 class SteeringController:
-    """Chooses edges on one graph by one policy table (conventions.md 5).
+    """Chooses edges and extra turns on one graph by one policy table (conventions.md 5).
 
     Args:
         graph: where the characters are.
         table: the values that were solved for on that graph.
+        exact_facing: whether extra turns may lie between the task's levels, so that a character that is nearly there
+            faces right where it is asked to.
 
     Raises:
         InputError: for a table that has not converged or belongs to another graph.
     """
 
-    def __init__(self, graph: MotionGraph, table: PolicyTable) -> None:
+    def __init__(self, graph: MotionGraph, table: PolicyTable, *, exact_facing: bool = True) -> None:
         table.require_converged()
         nodes = len(table.values)
         if nodes != graph.node_count:
@@ -48,9 +120,12 @@ class SteeringController:
             )
         self.graph = graph
         self.table = table
-        self._headed = table.task.headed
-        self._turn = np.ascontiguousarray(graph.displacement[:, 2])
-        self._delta, self._best = np.zeros(1), np.zeros(1, dtype=np.int32)
+        self.exact_facing = exact_facing
+        warp = turn_warp(graph) if table.task.warp > 0.0 else None
+        self._actions, self._onward = actions_of(graph, table.task, warp), onward_edges(graph)
+        self._pivot = np.zeros((graph.node_count, 2)) if warp is None else warp.pivot
+        self._held = np.zeros(1, dtype=np.int32)  # ticks by slot for which the last decision still holds
+        self._edge, self._turn = np.zeros(1, dtype=np.int32), np.zeros(1)
 
     @property
     def behaviours(self) -> tuple[str, ...]:
@@ -62,11 +137,18 @@ class SteeringController:
         """The behaviours that some frame of the graph shows."""
         return present_behaviours(self.graph)
 
+    @property
+    def table_bytes(self) -> int:
+        """The size of what it looks things up in."""
+        return self.table.values.nbytes
+
     def begin(self, slot: int) -> None:
-        """Nothing: it remembers nothing of a character."""
+        """Decide anew at the next tick."""
+        self._make_room(slot + 1)
+        self._held[slot] = 0
 
     def choose(self, situations: Situations, moves: Moves) -> None:
-        """Write the best edge of each of C characters into ``moves``.
+        """Write the best action of each of C characters into ``moves``.
 
         Raises:
             WrongQuestion: for a node or a behaviour that the table does not have.
@@ -74,26 +156,31 @@ class SteeringController:
         node, behaviour, count = situations.node, situations.behaviour, len(situations.node)
         self._check(node, self.graph.node_count, "node")
         self._check(behaviour, len(self.behaviours), "behaviour")
-        if len(self._delta) < count:
-            self._delta, self._best = np.zeros(count), np.zeros(count, dtype=np.int32)
-        delta = np.subtract(situations.heading, situations.place[:, 2], out=self._delta[:count])
-        task = self.table.task
-        best_edges(
-            node,
-            delta,
-            behaviour,
-            self._headed,
-            task.heading_sigma,
-            task.discount,
+        self._make_room(max(count, int(situations.slot.max(initial=-1)) + 1))
+        edge, turn = self._edge[:count], self._turn[:count]
+        decide(
+            self._actions,
             self.table.values,
-            self.graph.edge_start,
-            self.graph.target,
-            self.graph.behaviour,
-            self._turn,
-            self.graph.smoothness,
-            self._best[:count],
+            self._onward,
+            self.table.task.segment_ticks,
+            self.exact_facing,
+            situations.slot,
+            node,
+            situations.place,
+            situations.heading,
+            behaviour,
+            self._held,
+            edge,
+            turn,
         )
-        along_edges(self.graph, self._best[:count], moves)
+        along_edges(self.graph, edge, moves)
+        turn_moves(self._pivot, moves.target, turn, moves.adjustment)
+
+    def _make_room(self, count: int) -> None:
+        short = count - len(self._held)
+        if short > 0:
+            self._held = np.append(self._held, np.zeros(short, np.int32))
+            self._edge, self._turn = np.zeros(count, np.int32), np.zeros(count)
 
     def start_node(self, behaviour: str = "stop") -> int:
         """A good node to spawn at: of those that show the behaviour, the one worth most on average over all headings.

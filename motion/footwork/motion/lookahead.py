@@ -1,7 +1,8 @@
-"""One-step lookahead on interpolated values: what an edge is worth under a command, and which edge is best.
+"""One-step lookahead on interpolated values: what an action is worth under a command, and which one is best.
 
-The solver and the controller use the same kernels, so the policy that was solved for is the policy that is played.
-Nearest-bin rounding would leave slow turns stuck in their bin (conventions.md 5), so values are always interpolated.
+The controller plays by these kernels, and the solver states its residual by them, so the policy that was solved for
+is the policy that is played. Nearest-bin rounding would leave slow turns stuck in their bin (conventions.md 5), so
+values are always interpolated.
 """
 
 import math
@@ -10,17 +11,25 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.actions import Rules
+
 
 @numba.njit(cache=True, nogil=True)
-def interpolate(values: NDArray, heading: float) -> float:
-    """The periodic linear interpolation of ``values`` (H,), tabulated evenly from -pi on, at ``heading``."""
-    bins = values.shape[0]
-    place = (heading + math.pi) * (bins / (2.0 * math.pi))
-    whole = math.floor(place)
-    share = place - whole
-    low = int(whole) % bins
+def wrapped_angle(angle: float) -> float:
+    """The same angle, radians, within -pi..pi."""
+    return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)
+
+
+@numba.njit(cache=True, nogil=True)
+def interpolate(values: NDArray, node: int, wanted: int, heading: float) -> float:
+    """The periodic linear interpolation of ``values[node, wanted]``, tabulated evenly from -pi on, at ``heading``."""
+    bins = values.shape[2]
+    turns = heading / (2.0 * math.pi) + 0.5
+    place = (turns - math.floor(turns)) * bins
+    low = min(int(place), bins - 1)
     high = low + 1 if low + 1 < bins else 0
-    return values[low] * (1.0 - share) + values[high] * share
+    share = place - low
+    return values[node, wanted, low] * (1.0 - share) + values[node, wanted, high] * share
 
 
 @numba.njit(cache=True, nogil=True)
@@ -30,90 +39,79 @@ def control_quality(delta: float, matches: bool, headed: bool, sigma: float) -> 
         return 0.0
     if not headed:
         return 1.0
-    wrapped = delta - 2.0 * math.pi * math.floor(delta / (2.0 * math.pi) + 0.5)
-    return math.exp(-0.5 * (wrapped / sigma) ** 2)
+    return math.exp(-0.5 * (wrapped_angle(delta) / sigma) ** 2)
 
 
 @numba.njit(cache=True, nogil=True)
-def edge_value(
-    heading: float,
-    wanted: int,
-    headed: bool,
-    shown: int,
-    yaw: float,
-    smoothness: float,
-    next_values: NDArray,
-    sigma: float,
-    discount: float,
+def reward_of(control: float, smoothness: float, additive: bool, weight: float) -> float:
+    """What a tick of control quality qc and transition quality qt earns (SteeringTask.reward)."""
+    return control + weight * (smoothness - 1.0) if additive else control * smoothness
+
+
+@numba.njit(cache=True, nogil=True)
+def arrival_value(
+    rules: Rules, values: NDArray, there: int, wanted: int, heading: float, control: float, smoothness: float
 ) -> float:
-    """r + discount V' of one edge: r = qc qt, judged at the frame the edge leads to (conventions.md 5).
+    """r + discount W of a tick that ends at a node, judged there (conventions.md 5).
 
     Args:
-        heading: wanted heading less facing before the edge, radians.
+        rules: of the task.
+        values: PolicyTable.values.  # (N, B, H)
+        there: the node arrived at.
         wanted: index of the behaviour asked for.
-        headed: whether that behaviour is judged by its heading.
-        shown: index of the behaviour of the edge's target.
-        yaw: how far the edge turns, radians.
-        smoothness: qt of the edge.
-        next_values: values of the target under the behaviour asked for.  # (H,)
-        sigma: the task's heading_sigma.
-        discount: the task's discount.
+        heading: wanted heading less facing on arrival, radians.
+        control: qc on arrival.
+        smoothness: qt of the edge and the extra turn together.
     """
-    after = heading - yaw
-    reward = smoothness * control_quality(after, wanted == shown, headed, sigma)
-    return reward + discount * interpolate(next_values, after)
+    reward = reward_of(control, smoothness, rules.additive, rules.weight)
+    return reward + rules.discount * interpolate(values, there, wanted, heading)
 
 
 @numba.njit(cache=True, nogil=True)
-def best_edges(
-    node: NDArray,
-    heading: NDArray,
-    wanted: NDArray,
-    headed: NDArray,
-    sigma: float,
-    discount: float,
-    values: NDArray,
+def best_action(
     edge_start: NDArray,
     target: NDArray,
-    behaviour: NDArray,
-    turn: NDArray,
+    yaw: NDArray,
     smoothness: NDArray,
-    best: NDArray,
-) -> None:
-    """Write into ``best`` (C,) the edge of highest value for each of C characters; the first of equals wins.
+    behaviour: NDArray,
+    turn_limit: NDArray,
+    price: NDArray,
+    level: NDArray,
+    turn_smoothness: NDArray,
+    headed: NDArray,
+    rules: Rules,
+    values: NDArray,
+    node: int,
+    wanted: int,
+    heading: float,
+    exact: bool,
+) -> tuple[float, int, float]:
+    """The worth, the edge and the extra turn of the best action; the first of equals wins.
 
     Args:
-        node: where each character is.  # (C,)
-        heading: wanted heading less facing, radians.  # (C,)
-        wanted: index of the behaviour asked for.  # (C,)
-        headed: SteeringTask.headed.  # (B,)
-        sigma: the task's heading_sigma.
-        discount: the task's discount.
+        edge_start: as of Actions, and so are the arrays up to ``rules``.
         values: PolicyTable.values.  # (N, B, H)
-        edge_start: CSR row starts.  # (N + 1,)
-        target: CSR columns.  # (E,)
-        behaviour: behaviour of each node.  # (N,)
-        turn: yaw of each edge, radians.  # (E,)
-        smoothness: qt of each edge.  # (E,)
-        best: the result.  # (C,) int32
+        node: where the character is.
+        wanted: index of the behaviour asked for.
+        heading: wanted heading less facing, radians.
+        exact: whether to look, besides the levels, at the turn that brings the facing right onto the heading.
     """
-    for character in range(node.shape[0]):
-        here = node[character]
-        asked = wanted[character]
-        highest = -np.inf
-        for edge in range(edge_start[here], edge_start[here + 1]):
-            there = target[edge]
-            value = edge_value(
-                heading[character],
-                asked,
-                bool(headed[asked]),
-                int(behaviour[there]),
-                turn[edge],
-                smoothness[edge],
-                values[there, asked],
-                sigma,
-                discount,
-            )
+    highest, best, best_turn = -np.inf, -1, 0.0
+    gaussian = bool(headed[wanted])
+    for edge in range(edge_start[node], edge_start[node + 1]):
+        there, left = target[edge], heading - yaw[edge]
+        limit, matches = turn_limit[there], wanted == behaviour[there]
+        for k in range(len(level) if limit > 0.0 else 1):
+            turn = limit * level[k]
+            control = control_quality(left - turn, matches, gaussian, rules.heading_sigma)
+            quality = smoothness[edge] * turn_smoothness[there, k]
+            value = arrival_value(rules, values, there, wanted, left - turn, control, quality)
             if value > highest:
-                highest = value
-                best[character] = edge
+                highest, best, best_turn = value, edge, turn
+        turn = wrapped_angle(left)
+        if exact and abs(turn) < limit:
+            quality = smoothness[edge] * math.exp(-4.0 * price[there] * math.sin(0.5 * turn) ** 2)
+            value = arrival_value(rules, values, there, wanted, 0.0, 1.0 if matches else 0.0, quality)
+            if value > highest:
+                highest, best, best_turn = value, edge, turn
+    return highest, best, best_turn

@@ -7,22 +7,27 @@ from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion.arrays import frozen, require_finite, require_shape
+from footwork.motion.player_model import PlayerModel
 from footwork.motion.task import SteeringTask
 
 
 @dataclass(frozen=True, eq=False)
 class PolicyTable:
-    """Values V(node, behaviour, relative heading) of a steering task, and how they were found.
+    """Values of a steering task over (node, behaviour, relative heading), and how they were found.
+
+    They are of commands asked for now, when it is not known yet what the next tick asks for: W = P V, where V is the
+    worth of a node under a command and P the player model. For a player who never changes their mind W is V.
 
     Args:
-        task: the axes, the reward and the discount.
+        task: the axes, the reward, the actions and the discount.
         values: discounted reward to come.  # (N, B, H)
-        residual: the largest change of any value in the last sweep.
+        residual: the largest change of any of these values by one more backup.
         sweeps: how many sweeps were made.
         converged: whether the residual came under the tolerance.
+        player: how commands were taken to change from tick to tick; None for never.
 
     Raises:
-        InputError: for values of the wrong shape or that are not finite.
+        InputError: for values of the wrong shape or that are not finite, or a player model of other axes.
     """
 
     task: SteeringTask
@@ -30,12 +35,20 @@ class PolicyTable:
     residual: float
     sweeps: int
     converged: bool
+    player: PlayerModel | None = None
     where: str = "policy table"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", frozen(self.values, np.float32))
         require_shape(self.values, (None, len(self.task.behaviours), self.task.heading_bins), "values", self.where)
         require_finite(self.values, "values", self.where)
+        if self.player is not None:
+            require_axes(self.player, self.task)
+
+    @property
+    def error_bound(self) -> float:
+        """How far from the true values any of these can be: residual / (1 - discount)."""
+        return self.residual / (1.0 - self.task.discount)
 
     def require_converged(self) -> "PolicyTable":
         """The table itself.
@@ -46,3 +59,12 @@ class PolicyTable:
         if not self.converged:
             raise InputError(f"not converged: residual {self.residual:g} after {self.sweeps} sweeps", self.where)
         return self
+
+
+def require_axes(player: PlayerModel, task: SteeringTask) -> None:
+    """Raise InputError unless a player model has the behaviours and headings of a task."""
+    if player.behaviours != task.behaviours:
+        problem = f"behaviours {', '.join(player.behaviours)}, the task has {', '.join(task.behaviours)}"
+        raise InputError(problem, player.where)
+    if player.heading_bins != task.heading_bins:
+        raise InputError(f"{player.heading_bins} heading bins, the task has {task.heading_bins}", player.where)

@@ -1,154 +1,160 @@
-"""Value iteration: the reward every frame promises under every command, if the command stays (conventions.md 5)."""
+"""Value iteration: the reward every frame promises under every command (conventions.md 5).
+
+Modified policy iteration (Puterman and Shin 1978): a greedy sweep finds the best action of every state, then cheap
+sweeps follow those actions alone. Results do not depend on the number of threads.
+"""
 
 import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from itertools import pairwise
-from typing import NamedTuple
+from dataclasses import dataclass
 
-import numba
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from footwork.errors import InputError
+from footwork.motion.actions import Actions, actions_of, onward_edges
 from footwork.motion.graph import MotionGraph
-from footwork.motion.table import PolicyTable
+from footwork.motion.player_model import PlayerModel
+from footwork.motion.table import PolicyTable, require_axes
 from footwork.motion.task import SteeringTask
 from footwork.motion.threads import THREADS
+from footwork.motion.turn_warp import turn_warp
+from footwork.training.residual import bellman_residual
+from footwork.training.sweeper import Sweeper, spans_of
 
 TOLERANCE = 1e-3
-MAX_SWEEPS = 1500
+MAX_SWEEPS = 5000
+EVALUATIONS = 30
+_ROUNDINGS = 16.0
 
 
-class _Model(NamedTuple):
-    """The graph and the task as one sweep needs them; E edges, H headings."""
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The values that value iteration came to.
 
-    edge_start: NDArray[np.int32]  # (N + 1,)
-    target: NDArray[np.int32]  # (E,)
-    behaviour: NDArray[np.int16]  # (N,)
-    reward: NDArray[np.float64]  # (E, H) of being at the target when its behaviour is asked for
-    shift: NDArray[np.intp]  # (E,) whole bins, 0 <= shift < H, from a heading before the edge to the one after
-    share: NDArray[np.float64]  # (E,) rest of that shift, a share of a bin
-    discount: float
+    Args:
+        values: of commands expected at the next tick, in the precision that they were found in.  # (N, B, H)
+        residual: the largest change of any value in the last greedy sweep, whose result they are.
+        sweeps: how many sweeps were made, of both kinds.
+        improvements: how many of them were greedy.
+        bytes: what the solver's arrays took.
+    """
+
+    values: NDArray
+    residual: float
+    sweeps: int
+    improvements: int
+    bytes: int
 
 
 def solve(
     graph: MotionGraph,
     task: SteeringTask,
     *,
+    player: PlayerModel | None = None,
     tolerance: float = TOLERANCE,
     max_sweeps: int = MAX_SWEEPS,
     progress: Callable[[float], None] | None = None,
 ) -> PolicyTable:
-    """The fixed point of V(n, b, h) = max over edges of the edge's value, ``lookahead.edge_value``.
+    """The table of W = P V, where V(n, b, h) = max over actions of the action's ``lookahead.arrival_value``.
 
-    Every sweep reads the values of the one before it alone, so the result does not depend on the threads.
+    The table's residual is that of its float32 values, found in float64 by the lookahead that controllers use.
 
     Args:
         graph: every node has an edge.
-        task: axes, reward and discount.
-        tolerance: stop when no value changes by as much as this.
+        task: axes, reward, actions and discount.
+        player: how commands change from tick to tick; None where they never do.
+        tolerance: the table is converged where its residual is under this (but for the rounding to float32).
         max_sweeps: stop after so many; the table then says that it is not converged.
-        progress: told the share of the work done after each sweep.
+        progress: told the share of the work done after each greedy sweep.
 
     Raises:
-        InputError: for other behaviours than the graph's, or a node without edges.
+        InputError: for other behaviours than the graph's, a node without edges, a player model of other axes, a
+            reward that is the same whatever is done, or more states than memory has room for.
     """
-    _check(graph, task)
-    model = _model(graph, task)
-    shape = (graph.node_count, len(task.behaviours), 2 * task.heading_bins)
-    old, new = np.zeros(shape), np.empty(shape)
-    spans = _spans(graph.edge_start)
-    residual, sweeps, first = math.inf, 0, 0.0
+    actions, onward = _checked_actions(graph, task), onward_edges(graph)
+    if player is not None:
+        require_axes(player, task)
+    solution = fixed_point(
+        actions, onward, task, player=player, tolerance=0.5 * tolerance, max_sweeps=max_sweeps, progress=progress
+    )
+    values = solution.values.astype(np.float32)
+    residual = bellman_residual(values, actions, onward, task, player, spans_of(actions.edge_start))
+    rounding = 2.0 * float(np.spacing(np.abs(values).max()))
+    return PolicyTable(task, values, residual, solution.sweeps, residual < tolerance + rounding, player)
+
+
+def fixed_point(
+    actions: Actions,
+    onward: NDArray[np.int32],
+    task: SteeringTask,
+    *,
+    player: PlayerModel | None = None,
+    tolerance: float = TOLERANCE,
+    max_sweeps: int = MAX_SWEEPS,
+    progress: Callable[[float], None] | None = None,
+) -> Solution:
+    """The values that a greedy sweep changed by less than ``tolerance``.
+
+    They are within tolerance discount / (1 - discount) of the true ones. Sweeps are in float32 where that is fine
+    enough for the tolerance, in float64 otherwise.
+
+    Raises:
+        InputError: for more states than memory has room for.
+    """
     with ThreadPoolExecutor(THREADS) as pool:
-        while residual >= tolerance and sweeps < max_sweeps:
-            changes = [pool.submit(_sweep, *model, begin, end, old, new) for begin, end in spans]
-            residual, old, new = max(change.result() for change in changes), new, old
-            sweeps, first = sweeps + 1, first or residual
+        sweeper = Sweeper(actions, onward, task, player, _precision(task, tolerance), pool)
+        residual, improvements, first = math.inf, 0, 0.0
+        while residual >= tolerance and sweeper.sweeps < max_sweeps:
+            if improvements:
+                sweeper.follow(min(EVALUATIONS, max_sweeps - sweeper.sweeps - 1))
+            residual = sweeper.improve()
+            improvements, first = improvements + 1, first or residual
             if progress is not None:
                 progress(_share_done(residual, first, tolerance))
-    values = old[..., : task.heading_bins].astype(np.float32)
-    return PolicyTable(task, values, float(residual), sweeps, bool(residual < tolerance))
+    return Solution(sweeper.values, residual, sweeper.sweeps, improvements, sweeper.bytes)
 
 
-def _check(graph: MotionGraph, task: SteeringTask) -> None:
+def _checked_actions(graph: MotionGraph, task: SteeringTask) -> Actions:
     if graph.behaviours != task.behaviours:
         problem = f"behaviours {', '.join(task.behaviours)}, the graph has {', '.join(graph.behaviours)}"
         raise InputError(problem, "task")
     graph.require_no_dead_ends()
+    actions = actions_of(graph, task, turn_warp(graph) if task.warp > 0.0 else None)
+    if not _reward_varies(actions, len(task.behaviours)):
+        shown = [name for index, name in enumerate(graph.behaviours) if (graph.behaviour == index).any()]
+        problem = "the reward is the same whatever is done, expected a graph of several behaviours or a headed one; it "
+        problem += f"shows {', '.join(shown) or 'none'} of {', '.join(graph.behaviours)}"
+        raise InputError(problem, "task")
+    return actions
 
 
-def _model(graph: MotionGraph, task: SteeringTask) -> _Model:
-    yaw = graph.displacement[:, 2].astype(np.float64)
-    shown = graph.behaviour[graph.target]
-    # an edge shifts all headings alike: heading h - yaw lies ``bins`` bins from bin h
-    bins = -yaw * (task.heading_bins / (2.0 * np.pi))
-    whole = np.floor(bins)
-    asked = np.maximum(shown, 0)[:, None]
-    quality = task.control_quality(task.headings - yaw[:, None], asked, shown[:, None])
-    return _Model(
-        edge_start=graph.edge_start,
-        target=graph.target,
-        behaviour=graph.behaviour,
-        reward=graph.smoothness[:, None] * quality,
-        shift=whole.astype(np.intp) % task.heading_bins,
-        share=bins - whole,
-        discount=task.discount,
-    )
+def _reward_varies(actions: Actions, behaviours: int) -> bool:
+    """Whether the reward of some command depends on the heading or on the action."""
+    shown = actions.behaviour[actions.target]
+    if actions.headed[np.unique(shown[shown >= 0])].any():
+        return True
+    if (actions.turn_smoothness[actions.target] < 1.0).any():
+        return True
+    for wanted in range(behaviours):
+        matches = shown == wanted
+        if matches.any() != matches.all():
+            return True
+        earns = matches.any() or actions.rules.additive
+        if earns and actions.smoothness.min() < actions.smoothness.max():
+            return True
+    return False
 
 
-def _spans(edge_start: NDArray[np.int32]) -> list[tuple[int, int]]:
-    """Stretches of nodes with about as many edges each, one a thread."""
-    cuts = np.searchsorted(edge_start, np.linspace(0, edge_start[-1], THREADS + 1)[1:-1])
-    edges = [0, *cuts.tolist(), len(edge_start) - 1]
-    return list(pairwise(edges))
+def _precision(task: SteeringTask, tolerance: float) -> DTypeLike:
+    """float32 where a residual of ``tolerance`` stands well above its rounding."""
+    largest = (1.0 + (task.weight if task.additive else 0.0)) / (1.0 - task.discount)
+    return np.float32 if tolerance > _ROUNDINGS * np.finfo(np.float32).eps * largest else np.float64
 
 
 def _share_done(residual: float, first: float, tolerance: float) -> float:
     """How far the residual has come on its way, which is straight in the logarithm."""
     if residual < tolerance or first <= tolerance:
         return 1.0
-    return math.log(first / residual) / math.log(first / tolerance)
-
-
-@numba.njit(cache=True, nogil=True)
-def _sweep(
-    edge_start: NDArray,
-    target: NDArray,
-    behaviour: NDArray,
-    reward: NDArray,
-    shift: NDArray,
-    share: NDArray,
-    discount: float,
-    begin: int,
-    end: int,
-    old: NDArray,
-    new: NDArray,
-) -> float:
-    """One sweep over the nodes begin..end-1; the largest change.
-
-    Rows of values are written twice over, (N, B, 2H), so that a row shifted by some bins is a plain stretch of
-    memory.
-    """
-    headings = reward.shape[1]
-    best = np.empty(headings)
-    largest = 0.0
-    for node in range(begin, end):
-        for wanted in range(old.shape[1]):
-            best[:] = -np.inf
-            for edge in range(edge_start[node], edge_start[node + 1]):
-                there = target[edge]
-                ahead = old[there, wanted, shift[edge] : shift[edge] + headings + 1]
-                low, high = discount * (1.0 - share[edge]), discount * share[edge]
-                if behaviour[there] == wanted:
-                    for h in range(headings):
-                        best[h] = max(best[h], reward[edge, h] + (low * ahead[h] + high * ahead[h + 1]))
-                else:
-                    for h in range(headings):
-                        best[h] = max(best[h], low * ahead[h] + high * ahead[h + 1])
-            row, before = new[node, wanted], old[node, wanted]
-            for h in range(headings):
-                largest = max(largest, abs(best[h] - before[h]))
-                row[h] = best[h]
-                row[h + headings] = best[h]
-    return largest
+    return max(0.0, math.log(first / residual) / math.log(first / tolerance))

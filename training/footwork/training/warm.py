@@ -54,4 +54,5 @@ def _swaying_clip() -> Clip:
     rotations[:, 0] = quaternion.from_rotation_vector(lean[:, None] * np.array([0.0, 0.0, 1.0]))
     left = time // _STEP % 2 == 0
     root = np.tile([0.0, 1.0, 0.0], (_FRAMES, 1))
-    return Clip("swaying", body, 30.0, root, rotations, contacts=np.stack([left, ~left], axis=1))
+    labels = np.full(_FRAMES, "walk")
+    return Clip("swaying", body, 30.0, root, rotations, contacts=np.stack([left, ~left], axis=1), labels=labels)

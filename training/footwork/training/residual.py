@@ -1,0 +1,74 @@
+"""The Bellman residual of a finished table, in float64 and by the very lookahead that controllers play by."""
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.motion.actions import Actions, onward_actions
+from footwork.motion.lookahead import best_action
+from footwork.motion.player_model import PlayerModel
+from footwork.motion.task import SteeringTask
+from footwork.motion.threads import THREADS
+
+
+def bellman_residual(
+    values: NDArray,
+    actions: Actions,
+    onward: NDArray[np.int32],
+    task: SteeringTask,
+    player: PlayerModel | None,
+    spans: Sequence[tuple[int, int]],
+) -> float:
+    """The largest difference between values and what one backup makes of them.
+
+    Values that differ from the true ones anywhere by more than this over 1 - discount cannot be.
+
+    Args:
+        values: of commands expected at the next tick.  # (N, B, H)
+        actions: of the graph and the task.
+        onward: ``actions.onward_edges``.  # (N,)
+        task: what the values are of.
+        player: how commands change; None where they never do.
+        spans: stretches of nodes to share out to threads, as (begin, end).
+    """
+    following, headings = values, task.headings
+    with ThreadPoolExecutor(THREADS) as pool:
+        for tick in range(task.segment_ticks):
+            backed = np.empty(values.shape)
+            choices = onward_actions(actions, onward) if tick else actions
+            jobs = [pool.submit(_back_up, choices, headings, *span, following, backed) for span in spans]
+            for job in jobs:
+                job.result()
+            following = backed if player is None else player.expected(backed)
+    return float(np.abs(following - values).max())
+
+
+@numba.njit(cache=True, nogil=True)
+def _back_up(actions: Actions, headings: NDArray, begin: int, end: int, values: NDArray, backed: NDArray) -> None:
+    """Write the worth of the best action at each heading of the nodes begin..end-1."""
+    edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
+    for node in range(begin, end):
+        for wanted in range(values.shape[1]):
+            for h in range(values.shape[2]):
+                found = best_action(
+                    edge_start,
+                    target,
+                    yaw,
+                    smoothness,
+                    shown,
+                    turn_limit,
+                    price,
+                    level,
+                    turn_smoothness,
+                    headed,
+                    rules,
+                    values,
+                    node,
+                    wanted,
+                    headings[h],
+                    False,
+                )
+                backed[node, wanted, h] = found[0]

@@ -1,0 +1,114 @@
+"""Value iteration's arrays, and sweeps over them on all processors."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from footwork.motion.actions import Actions, onward_actions
+from footwork.motion.player_model import PlayerModel, persistent_player
+from footwork.motion.task import SteeringTask
+from footwork.training.room import require_room
+from footwork.training.sweeps import evaluate, heading_qualities, improve, no_policy
+
+SPANS = 8
+"""A fixed number, as results depend on it: they must not on how many processors there are."""
+
+
+def spans_of(edge_start: NDArray[np.int32]) -> list[tuple[int, int]]:
+    """Stretches of nodes, as (begin, end), with about as many edges each."""
+    cuts = np.searchsorted(edge_start, np.linspace(0, edge_start[-1], SPANS + 1)[1:-1])
+    edges = np.unique([0, *cuts.tolist(), len(edge_start) - 1]).tolist()
+    return list(pairwise(edges))
+
+
+class Sweeper:
+    """Sweeps over the values of a task: greedy ones, and ones that follow the policy found last.
+
+    With N B H states, numbers of z bytes and R = 1 where a decision holds for one tick, else 2, it takes about
+    N B H ((1 + R) z + R (2 z + 4)) bytes: 20 a state in float32, 36 in float64; 36 and 64 where R is 2.
+
+    Args:
+        actions: of the graph and the task.
+        onward: ``actions.onward_edges``.  # (N,)
+        task: what the values are of.
+        player: how commands change; None where they never do.
+        kind: float32 or float64.
+        pool: runs the sweeps.
+
+    Attributes:
+        sweeps: how many were made.
+
+    Raises:
+        InputError: for more states than memory has room for.
+    """
+
+    def __init__(
+        self,
+        actions: Actions,
+        onward: NDArray[np.int32],
+        task: SteeringTask,
+        player: PlayerModel | None,
+        kind: DTypeLike,
+        pool: Executor,
+    ) -> None:
+        nodes, behaviours, headings = len(actions.behaviour), len(task.behaviours), task.heading_bins
+        states, copies = nodes * behaviours * headings, 1 + min(task.segment_ticks, 2)
+        self.bytes = _bytes_needed(states, np.dtype(kind).itemsize, copies)
+        require_room(self.bytes, f"{states} states", "fewer frames or heading bins", "task")
+        change = (player or persistent_player(task.behaviours, headings)).change
+        self._player = change.astype(kind), player is None
+        self._actions, self._qualities = actions, heading_qualities(task, kind)
+        self._discount = np.asarray(task.discount, kind)[()]
+        self._pool, self._spans = pool, spans_of(actions.edge_start)
+        self._policy, self._ticks = no_policy(states, kind), task.segment_ticks
+        self._copies = np.zeros((copies, nodes, headings + 1, behaviours), kind)
+        self._now, self._spare, self.sweeps = 0, list(range(1, copies)), 0
+        if self._ticks > 1:
+            self._onward = no_policy(states, kind)
+            self._spare.append(self._sweep(improve, self._onward, onward_actions(actions, onward), self._qualities))
+
+    @property
+    def values(self) -> NDArray:
+        """The current values.  # (N, B, H)"""
+        return self._copies[self._now, :, :-1].transpose(0, 2, 1)
+
+    def improve(self) -> float:
+        """Make a greedy sweep; the largest change of any value."""
+        old = self._now
+        self._now = self._held(self._sweep(improve, self._policy, self._actions, self._qualities))
+        self._spare.append(old)
+        before, after = self._copies[old], self._copies[self._now]
+        return float(max(np.abs(after[begin:end] - before[begin:end]).max() for begin, end in self._spans))
+
+    def follow(self, count: int) -> None:
+        """Make so many sweeps that follow the policy of the last greedy one."""
+        for _ in range(count):
+            old = self._now
+            self._now = self._held(self._sweep(evaluate, self._policy, self._discount, self._ticks == 1))
+            self._spare.append(old)
+
+    def _held(self, copy: int) -> int:
+        """The values at the tick of a decision from those after its last tick: it holds in between."""
+        for _ in range(self._ticks - 1):
+            before = self._sweep(evaluate, self._onward, self._discount, False, old=copy)
+            self._spare.append(copy)
+            copy = before
+        return copy
+
+    def _sweep(self, kernel: Callable, *what: Any, old: int | None = None) -> int:
+        """Run a kernel over all nodes, from one copy of the values to a spare one, which it returns."""
+        old, new = self._now if old is None else old, self._spare.pop()
+        jobs = [self._pool.submit(kernel, *what, *self._player, *span, self._copies, old, new) for span in self._spans]
+        for job in jobs:
+            job.result()
+        self.sweeps += 1
+        return new
+
+
+def _bytes_needed(states: int, number: int, copies: int) -> int:
+    """Copies of the values, and for each but one a policy."""
+    return states * (copies * number + (copies - 1) * (2 * number + 4))
