@@ -12,11 +12,13 @@ from footwork.cli.motions import AS_USUAL, Reading, load_motions
 from footwork.cli.output import emit, log, progress
 from footwork.errors import InputError
 from footwork.training.graph_options import GraphOptions
+from footwork.training.task_options import TaskOptions
 
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help answers at once
     from footwork.training.dataset import Dataset
 
 _AS_USUAL = GraphOptions()
+_USUALLY_ASKED = TaskOptions()
 
 
 def build(
@@ -25,7 +27,7 @@ def build(
     *,
     out: Path,
     options: Annotated[GraphOptions, Parameter(name="*")] = _AS_USUAL,
-    discount: float = 0.98,
+    asked: Annotated[TaskOptions, Parameter(name="*")] = _USUALLY_ASKED,
     backend: str = "threads",
     scheduler: str | None = None,
     reading: Reading = AS_USUAL,
@@ -39,22 +41,21 @@ def build(
         motions: A folder of BVH or ASF/AMC files, or embedded:locomotion or embedded:fighting.
         out: The bundle to write; an older one there is replaced only once the new one is whole.
         options: The kind of motion graph and how it is built.
-        discount: The worth of the next tick's reward against this one's.
+        asked: What the policy is asked to do, and what it may do for it.
         backend: Where the search for a well-connected graph's transitions runs: threads, or dask for a cluster.
         scheduler: Address of the Dask cluster's scheduler, such as tcp://127.0.0.1:8786.
         reading: How a folder of capture is read.
         json: Print the report as one JSON object.
     """
     from footwork.motion.bundle import write_bundle
-    from footwork.motion.task import SteeringTask
     from footwork.training.backend import backend as running_on
     from footwork.training.build import build_bundle
     from footwork.training.warm import start_warming
 
     _check_place(out)
+    task = asked.task()
     started = time.perf_counter()
     warming = start_warming(options)
-    task = SteeringTask(discount=discount)
     with running_on(backend, scheduler=scheduler), progress() as report_progress:
         report_progress("reading motions", 0.0)
         dataset = load_motions(motions, reading)

@@ -1,0 +1,56 @@
+"""What a policy is asked to do, as it is said on the command line: angles in degrees."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help answers at once
+    from footwork.motion.task import SteeringTask
+
+
+@dataclass(frozen=True)
+class TaskOptions:
+    """The reward of a policy and what it may do.
+
+    Args:
+        discount: The worth of the next tick's reward against this one's.
+        reward: What control and smoothness make together: product, or sum for control + weight (smoothness - 1).
+        weight: The weight of smoothness in a sum.
+        warp: The most, in degrees a tick, that a character may be turned by more or less than its capture, 0 to 6.
+        warp_stop: The part of that for frames that stand.
+        warp_jump: The part of that for frames that jump.
+        warp_levels: Among how many extra turns the policy chooses, an odd number.
+        heading_bins: At how many headings the policy is tabulated.
+        segment_ticks: For how many ticks a decision holds.
+    """
+
+    discount: float = 0.98
+    reward: str = "product"
+    weight: float = 1.0
+    warp: float = 0.0
+    warp_stop: float = 0.25
+    warp_jump: float = 0.5
+    warp_levels: int = 5
+    heading_bins: int = 36
+    segment_ticks: int = 1
+
+    def task(self) -> SteeringTask:
+        """The steering task.
+
+        Raises:
+            InputError: for what no task can have.
+        """
+        from footwork.motion.task import SteeringTask
+
+        return SteeringTask(
+            heading_bins=self.heading_bins,
+            discount=self.discount,
+            reward=self.reward,
+            weight=self.weight,
+            warp=math.radians(self.warp),
+            warp_share={"stop": self.warp_stop, "walk": 1.0, "run": 1.0, "jump": self.warp_jump},
+            warp_levels=self.warp_levels,
+            segment_ticks=self.segment_ticks,
+        )
