@@ -26,10 +26,10 @@ from footwork.runtime.rotation_kernels import along, column3, column4, exp, mult
 
 RELEASE_HALFLIFE = 0.05
 """Half-life of what a lock leaves when it ends, s: a twelfth is left after 0.15 s."""
-FURTHEST, MOST_TURNED = 0.18, math.radians(30.0)
+FURTHEST, MOST_TURNED = 0.3, math.radians(60.0)
 """A lock further than this from its motion, metres and radians, is released."""
-_NEAR = 0.25
-"""A share of those, within which a standing foot is locked again."""
+_NEAR = 0.5
+"""A share of those, within which a standing foot is locked (again)."""
 _SETTLED = 1e-6  # metres and radians: what is left is dropped
 
 
