@@ -1,6 +1,7 @@
 import hashlib
 import json
 import re
+from dataclasses import replace
 
 import msgspec
 import numpy as np
@@ -11,6 +12,7 @@ from footwork.errors import InputError
 from footwork.motion import tensor_file
 from footwork.motion.bundle import VERSION, Bundle, decode_bundle, encode_bundle, read_bundle, sealed, write_bundle
 from footwork.motion.graph import ARRAYS
+from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from motion_samples import ring_graph
@@ -18,9 +20,15 @@ from motion_samples import ring_graph
 TASK = SteeringTask(behaviours=("stop", "walk"))
 
 
+def some_player() -> PlayerModel:
+    change = np.random.default_rng(1).random((2, 2, TASK.heading_bins))
+    files = (TraceFile("one.csv", "1" * 64), TraceFile("two.csv", "2" * 64))
+    return PlayerModel(TASK.behaviours, change / change.sum(axis=(1, 2), keepdims=True), files)
+
+
 def sample_bundle(nodes: int = 5, converged: bool = True) -> Bundle:
     values = np.random.default_rng(0).random((nodes, 2, TASK.heading_bins), np.float32)
-    table = PolicyTable(TASK, values, 1e-4, 400, converged)
+    table = PolicyTable(TASK, values, 1e-4, 400, converged, some_player())
     provenance = {"files": [{"name": "a.bvh", "sha256": "0" * 64}], "options": {"threshold": 0.1 + 0.2}}
     return Bundle(ring_graph(nodes), {"steering": table}, provenance, ("Motion by someone, CC BY 4.0",))
 
@@ -52,12 +60,34 @@ def test_a_bundle_reads_as_it_was_written(tmp_path):
     assert read.attribution == bundle.attribution
     assert read.table("steering").task == TASK
     np.testing.assert_array_equal(read.table("steering").values, bundle.table("steering").values)
+    player = read.table("steering").player
+    assert player is not None
+    assert player.learned_from == some_player().learned_from
+    np.testing.assert_array_equal(player.change, some_player().change)
     for name in ARRAYS:
         np.testing.assert_array_equal(getattr(read.graph, name), getattr(bundle.graph, name))
     for name in ("clips", "labels", "behaviours"):
         assert getattr(read.graph, name) == getattr(bundle.graph, name)
     assert read.graph.skeleton.names == bundle.graph.skeleton.names
     np.testing.assert_array_equal(read.graph.skeleton.offsets, bundle.graph.skeleton.offsets)
+
+
+def test_a_policy_without_a_player_model_reads_as_one(tmp_path):
+    bundle = sample_bundle()
+    table = replace(bundle.table("steering"), player=None)
+    write_bundle(tmp_path / "b.footwork", replace(bundle, tables={"steering": table}))
+    assert read_bundle(tmp_path / "b.footwork").table("steering").player is None
+
+
+def test_a_mapped_bundle_is_the_same_and_outlives_its_file(tmp_path):
+    path = tmp_path / "b.footwork"
+    digest = write_bundle(path, sample_bundle(5))
+    mapped = read_bundle(path, mapped=True)
+    write_bundle(path, sample_bundle(7))
+    assert mapped.digest == digest
+    assert encode_bundle(mapped)[1] == digest
+    for name in ARRAYS:
+        assert not getattr(mapped.graph, name).flags.owndata
 
 
 def test_the_same_bundle_gives_the_same_bytes(sample_bytes):
@@ -127,6 +157,10 @@ def test_a_newer_version_says_so():
         (lambda about, arrays: about["tables"]["steering"]["task"].update(discount=1.0), "discount is 1"),
         (lambda about, arrays: about["tables"]["steering"]["task"].update(heading_bins="36"), "heading_bins"),
         (lambda about, arrays: about["tables"]["steering"]["task"].update(behaviours=["walk", "stop"]), "behaviours"),
+        (lambda about, arrays: arrays.pop("player.steering"), "no array 'player.steering'"),
+        (lambda about, arrays: arrays.update({"player.steering": np.ones((2, 2, 36))}), "player of table.*sum to 72"),
+        (lambda about, arrays: arrays.update({"player.steering": np.full((2, 2, 9), 1 / 18)}), "9 heading bins"),
+        (lambda about, arrays: about["tables"]["steering"].update(learned_from=[{"name": 1}]), "learned_from"),
         (lambda about, arrays: about["joints"].__setitem__(1, "hips"), "used twice"),
         (lambda about, arrays: about.pop("clips"), "clips"),
         (lambda about, arrays: arrays.update({"graph.target": np.full(5, 0.5, np.float32)}), "target' holds float32"),

@@ -13,11 +13,12 @@ from numpy.typing import DTypeLike, NDArray
 from footwork.errors import InputError
 from footwork.motion import tensor_file
 from footwork.motion.graph import ARRAYS, MotionGraph
+from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 
-VERSION = 2
+VERSION = 3
 _BODY_ARRAYS = {
     "parents": np.int32,
     "offsets": np.float64,
@@ -86,6 +87,8 @@ class _Table(msgspec.Struct):
     residual: float
     sweeps: int
     converged: bool
+    learned_from: list[TraceFile] | None
+    """None for a policy without a player model."""
 
 
 class _Version(msgspec.Struct):
@@ -119,18 +122,24 @@ def sealed(bundle: Bundle) -> Bundle:
     return replace(bundle, digest=encode_bundle(bundle)[1])
 
 
-def read_bundle(path: str | Path) -> Bundle:
-    """Read a bundle, its arrays as read-only views of one copy of the file.
+def read_bundle(path: str | Path, *, mapped: bool = False) -> Bundle:
+    """Read a bundle, its arrays as read-only views of one copy of the file, or of the file itself.
+
+    Args:
+        path: the file.
+        mapped: view the file itself, mapped into memory that all processes share which map it. As long as the bundle
+            is in use the file may only be replaced by renaming, as ``write_bundle`` does.
 
     Raises:
         InputError: for a file that is missing, cut short, changed, of a newer version, or whose parts do not fit
             together; and for a table that is not converged.
     """
     path = Path(path)
-    return decode_bundle(tensor_file.read_bytes(path), str(path))
+    data = tensor_file.map_bytes(path) if mapped else tensor_file.read_bytes(path)
+    return decode_bundle(data, str(path))
 
 
-def decode_bundle(data: bytes, where: str) -> Bundle:
+def decode_bundle(data: tensor_file.Data, where: str) -> Bundle:
     """A bundle from the bytes of its file; errors as of ``read_bundle``."""
     arrays, text, digest = tensor_file.unseal(data, where)
     version = tensor_file.decode_about(text, _Version, where).version
@@ -148,7 +157,8 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
     graph = bundle.graph
     arrays = {f"graph.{name}": getattr(graph, name) for name in ARRAYS}
     arrays |= {f"skeleton.{name}": getattr(graph.skeleton, name) for name in _BODY_ARRAYS}
-    arrays |= {f"table.{name}": table.require_converged().values for name, table in bundle.tables.items()}
+    for name, table in bundle.tables.items():
+        arrays |= _table_arrays(name, table.require_converged())
     about = {
         "version": VERSION,
         "joints": graph.skeleton.names,
@@ -162,8 +172,14 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
     return tensor_file.seal(arrays, about)
 
 
+def _table_arrays(name: str, table: PolicyTable) -> dict[str, NDArray]:
+    player = {} if table.player is None else {f"player.{name}": table.player.change}
+    return {f"table.{name}": table.values} | player
+
+
 def _about_table(table: PolicyTable) -> _Table:
-    return _Table(table.task, table.residual, table.sweeps, table.converged)
+    learned_from = None if table.player is None else list(table.player.learned_from)
+    return _Table(table.task, table.residual, table.sweeps, table.converged, learned_from)
 
 
 def _take(arrays: Mapping[str, NDArray], name: str, kind: DTypeLike, where: str) -> NDArray:
@@ -179,8 +195,21 @@ def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) 
     if not math.isfinite(about.residual):
         raise InputError(f"table {name!r} has a residual of {about.residual}, expected a finite number", where)
     return PolicyTable(
-        about.task, values, about.residual, about.sweeps, about.converged, where=f"{where}: table {name!r}"
+        about.task,
+        values,
+        about.residual,
+        about.sweeps,
+        about.converged,
+        _player(about, arrays, name, where),
+        where=f"{where}: table {name!r}",
     ).require_converged()
+
+
+def _player(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PlayerModel | None:
+    if about.learned_from is None:
+        return None
+    change = _take(arrays, f"player.{name}", np.float64, where)
+    return PlayerModel(about.task.behaviours, change, tuple(about.learned_from), f"{where}: player of table {name!r}")
 
 
 def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGraph:

@@ -6,12 +6,13 @@ hexadecimal characters read as zeros, so that any changed byte is noticed, the h
 
 import contextlib
 import hashlib
+import mmap
 import os
 import stat
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import msgspec
 import numpy as np
@@ -23,6 +24,7 @@ from footwork.errors import InputError
 MAX_FILE_BYTES = 4 << 30
 MAX_HEADER_BYTES = 32 << 20
 _UNSEALED = "0" * 64
+Data = bytes | mmap.mmap
 _KINDS = {"F64": "<f8", "F32": "<f4", "I32": "<i4", "I16": "<i2", "BOOL": "?"}
 
 
@@ -64,7 +66,7 @@ def seal(arrays: Mapping[str, NDArray], about: Any) -> tuple[bytes, str]:
     return bytes(data), digest
 
 
-def unseal(data: bytes, where: str) -> tuple[dict[str, NDArray], msgspec.Raw, str]:
+def unseal(data: Data, where: str) -> tuple[dict[str, NDArray], msgspec.Raw, str]:
     """The arrays (read-only views into ``data``), the JSON about them and the digest of a sealed file.
 
     Raises:
@@ -78,7 +80,7 @@ def unseal(data: bytes, where: str) -> tuple[dict[str, NDArray], msgspec.Raw, st
     return arrays, sealed.about, sealed.digest
 
 
-def _header(data: bytes, where: str) -> tuple[dict[str, msgspec.Raw], int]:
+def _header(data: Data, where: str) -> tuple[dict[str, msgspec.Raw], int]:
     """The entries of the JSON header, and where the arrays begin."""
     length = int.from_bytes(data[:8], "little")
     if len(data) < 8 or length > MAX_HEADER_BYTES or 8 + length > len(data):
@@ -102,7 +104,7 @@ def decode_about(text: msgspec.Raw, kind: Any, where: str) -> Any:
     return _decode(text, kind, where)
 
 
-def _check_digest(data: bytes, start: int, digest: str, where: str) -> None:
+def _check_digest(data: Data, start: int, digest: str, where: str) -> None:
     mark = digest.encode()
     place = data.find(mark, 0, start)
     if len(mark) != 64 or place < 0 or data.find(mark, place + 1, start) >= 0:
@@ -115,7 +117,7 @@ def _check_digest(data: bytes, start: int, digest: str, where: str) -> None:
         raise InputError(f"damaged: its digest is {found.hexdigest()[:12]}..., expected {digest[:12]}...", where)
 
 
-def _view(data: bytes, start: int, tensor: _Tensor, where: str) -> NDArray:
+def _view(data: Data, start: int, tensor: _Tensor, where: str) -> NDArray:
     begin, end = tensor.data_offsets
     kind = _KINDS.get(tensor.dtype)
     if kind is None:
@@ -136,14 +138,35 @@ def read_bytes(path: Path) -> bytes:
     Raises:
         InputError: for a file that cannot be read, is no regular file or is larger than any bundle.
     """
+    with _opened(path) as file:
+        return file.read()
+
+
+def map_bytes(path: Path) -> Data:
+    """The file's bytes as a read-only map, whose memory all processes that map the file share.
+
+    A file that is replaced by renaming, as ``publish`` does, leaves its map as it was; one that is cut short or written
+    over in place takes its readers down.
+
+    Raises:
+        InputError: as ``read_bytes`` does.
+    """
+    with _opened(path) as file:
+        # an empty file cannot be mapped
+        return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if os.fstat(file.fileno()).st_size else b""
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[BinaryIO]:
     try:
+        # a device or a pipe could go on without end, or hang as it is opened
         status = path.stat()
-        # a device or a pipe could go on without end
         if not stat.S_ISREG(status.st_mode):
             raise InputError("cannot be read: not a regular file", path)
         if status.st_size > MAX_FILE_BYTES:
             raise InputError(f"{status.st_size} bytes, expected at most {MAX_FILE_BYTES}", path)
-        return path.read_bytes()
+        with path.open("rb") as file:
+            yield file
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", path) from None
 
