@@ -9,6 +9,7 @@ from footwork.motion.task import SteeringTask
 from footwork.training.build import build_bundle
 from footwork.training.connectivity import largest_component
 from footwork.training.graph_options import GraphOptions
+from made_traces import trace
 from motion_samples import SampleMotions, sample_clip, sample_clips
 
 SAMPLES = SampleMotions(sample_clips(4, 80), [{"file": "sample", "sha256": "1" * 64}], ["Made up."])
@@ -128,3 +129,14 @@ def test_a_policy_that_does_not_converge_is_refused():
         build_bundle(
             SampleMotions(sample_clips(2, 60)), GraphOptions(threshold=1.0), task=SteeringTask(discount=0.999999)
         )
+
+
+def test_a_bundle_knows_the_players_that_its_policy_learned_from(built, tmp_path):
+    players = [replace(trace(f"{turn}.csv", turn=turn), digest=f"{turn:064}") for turn in (0.0, 0.1)]
+    bundle, _ = build_bundle(SAMPLES, GraphOptions(threshold=1.0), players=players)
+    write_bundle(tmp_path / "b.footwork", bundle)
+    player = read_bundle(tmp_path / "b.footwork").table("steering").player
+    assert player is not None
+    assert [(file.name, file.digest) for file in player.learned_from] == [(one.name, one.digest) for one in players]
+    assert built[0].table("steering").player is None
+    assert (bundle.table("steering").values != built[0].table("steering").values).any()

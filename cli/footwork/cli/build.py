@@ -10,6 +10,7 @@ from cyclopts import Parameter
 
 from footwork.cli.motions import AS_USUAL, Reading, load_motions
 from footwork.cli.output import emit, log, progress
+from footwork.cli.traces import read_traces
 from footwork.errors import InputError
 from footwork.training.graph_options import GraphOptions
 from footwork.training.task_options import TaskOptions
@@ -28,6 +29,7 @@ def build(
     out: Path,
     options: Annotated[GraphOptions, Parameter(name="*")] = _AS_USUAL,
     asked: Annotated[TaskOptions, Parameter(name="*")] = _USUALLY_ASKED,
+    players: Path | None = None,
     backend: str = "threads",
     scheduler: str | None = None,
     reading: Reading = AS_USUAL,
@@ -42,6 +44,8 @@ def build(
         out: The bundle to write; an older one there is replaced only once the new one is whole.
         options: The kind of motion graph and how it is built.
         asked: What the policy is asked to do, and what it may do for it.
+        players: A trace (CSV), or a folder of them: players whose changes of mind the policy learns to expect; without
+            any it expects none.
         backend: Where the search for a well-connected graph's transitions runs: threads, or dask for a cluster.
         scheduler: Address of the Dask cluster's scheduler, such as tcp://127.0.0.1:8786.
         reading: How a folder of capture is read.
@@ -54,6 +58,7 @@ def build(
 
     _check_place(out)
     task = asked.task()
+    recorded = read_traces(players) if players else []
     started = time.perf_counter()
     warming = start_warming(options)
     with running_on(backend, scheduler=scheduler), progress() as report_progress:
@@ -65,7 +70,7 @@ def build(
         report_progress("compiling", 0.0)
         warming.join()
         compiled = time.perf_counter() - started - read
-        bundle, report = build_bundle(dataset, options, task=task, progress=report_progress)
+        bundle, report = build_bundle(dataset, options, task=task, players=recorded, progress=report_progress)
         digest = write_bundle(out, bundle)
     if warning := report.get("knee", {}).get("warning"):
         log(warning)

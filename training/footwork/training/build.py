@@ -12,9 +12,11 @@ from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.mirror import mirrored
 from footwork.motion.task import SteeringTask
+from footwork.motion.trace import Trace
 from footwork.motion.window import LENGTH
 from footwork.training.graph_options import GraphOptions
 from footwork.training.memory import peak_rss_mb
+from footwork.training.player_model import learned
 from footwork.training.recipe import Built
 from footwork.training.stages import Progress, Stages
 from footwork.training.standard_recipe import build_standard
@@ -50,6 +52,7 @@ def build_bundle(
     options: GraphOptions = _AS_USUAL,
     *,
     task: SteeringTask | None = None,
+    players: Sequence[Trace] = (),
     progress: Progress | None = None,
 ) -> tuple[Bundle, dict[str, Any]]:
     """A bundle of a motion graph and its steering policy, and a report of how it went.
@@ -64,6 +67,7 @@ def build_bundle(
         motions: the clips and where they came from.
         options: the kind of graph and how it is built.
         task: what may be asked for; the default steering task where not given.
+        players: recordings that the policy learns from how commands change; without any it takes them never to.
         progress: told the stage and the share of it that is done.
 
     Raises:
@@ -77,7 +81,8 @@ def build_bundle(
     clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
     built = _RECIPES[options.graph](clips, options, task, stages)
     with stages("policy") as tell:
-        table = solve(built.graph, task, progress=tell).require_converged()
+        player = learned(players, task, _shown_behaviours(built.graph)) if players else None
+        table = solve(built.graph, task, player=player, progress=tell).require_converged()
     extra = _mirrored_frames(motions, options)
     provenance = _provenance(motions, options, task, built, extra) | choice
     bundle = sealed(Bundle(built.graph, {"steering": table}, provenance, tuple(motions.attribution)))
@@ -99,7 +104,7 @@ def build_bundle(
             "residual": table.residual,
             "converged": table.converged,
         },
-        "missing_behaviours": _missing_behaviours(built.graph),
+        "missing_behaviours": [name for name in task.behaviours if name not in _shown_behaviours(built.graph)],
         "digest": bundle.digest,
     }
     return bundle, report
@@ -112,9 +117,9 @@ def _check(clips: Sequence[Clip]) -> None:
             raise InputError(problem, clip.name)
 
 
-def _missing_behaviours(graph: MotionGraph) -> list[str]:
+def _shown_behaviours(graph: MotionGraph) -> list[str]:
     shown = set(graph.behaviour.tolist())
-    return [name for index, name in enumerate(graph.behaviours) if index not in shown]
+    return [name for index, name in enumerate(graph.behaviours) if index in shown]
 
 
 def _mirrored_frames(motions: Motions, options: GraphOptions) -> dict[str, int]:
