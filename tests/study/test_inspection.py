@@ -28,6 +28,9 @@ def test_a_bundle_is_described_in_json():
     assert sum(report["labels"].values()) == report["nodes"]
     assert 0.9 < report["connectivity"]["reachable_share"] <= 1.0
     assert set(report["responsiveness"]["changes"]) == {"stop to walk", "stop to jump", "walk to stop", "walk to jump"}
+    turns = report["responsiveness"]["turns"]
+    assert set(turns) == {f"walk {degrees}" for degrees in ("+45", "-45", "+90", "-90", "+135", "-135", "+180")}
+    assert all(one["shortest_s"] <= one["mean_s"] + 1e-9 for one in turns.values())
     assert report["attribution"]
 
 

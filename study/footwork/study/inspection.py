@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from footwork.controllers.steering import SteeringController
 from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
-from footwork.motion.graph import ARRAYS
+from footwork.motion.graph import ARRAYS, MotionGraph
 from footwork.motion.table import PolicyTable
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
 from footwork.study.graph_report import graph_report
@@ -42,11 +42,15 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
         "behaviours": _counts(graph.behaviours, graph.behaviour),
         **graph_report(graph, bundle.provenance.get("counts", {}).get("frames")),
         "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
-        "responsiveness": responsiveness(graph, SteeringController(graph, steering)) if steering else None,
+        "responsiveness": _responsiveness(graph, steering) if steering else None,
         "tables": {name: _table(table) for name, table in bundle.tables.items()},
         "attribution": list(bundle.attribution),
         "provenance": dict(bundle.provenance),
     }
+
+
+def _responsiveness(graph: MotionGraph, table: PolicyTable) -> dict[str, Any]:
+    return responsiveness(graph, SteeringController(graph, table), table.task.turn_limit(graph.behaviour))
 
 
 def inspect_clips(clips: Sequence[Clip]) -> dict[str, Any]:

@@ -1,4 +1,7 @@
-"""How soon a character can do what it is told: from many frames at once, one new command, time until it is done."""
+"""How soon a character does what it is told: from many frames at once, one new command, time until it is done.
+
+Beside each time stands the shortest that the graph allows from the same frames (``shortest_times``).
+"""
 
 from collections.abc import Callable
 
@@ -12,11 +15,16 @@ from footwork.motion.moves import no_moves
 from footwork.motion.task import HEADED, ONE_SHOT
 from footwork.motion.tick import TICK
 from footwork.runtime.world import World
+from footwork.study.breadth_first import UNREACHED
 from footwork.study.measures import STEP, Answers
+from footwork.study.shortest_times import ticks_to_behaviour, ticks_to_turn
 
 SAMPLES = 64
 PATIENCE = 5.0
 """Seconds after which a command counts as not answered."""
+TURNS = (45, 90, 135, 180)
+"""Degrees; each to both sides but the last."""
+_TICKS = round(PATIENCE / TICK)
 
 
 def evenly(nodes: NDArray, count: int = SAMPLES) -> NDArray[np.int32]:
@@ -27,36 +35,52 @@ def evenly(nodes: NDArray, count: int = SAMPLES) -> NDArray[np.int32]:
 def turn_times(graph: MotionGraph, controller: Controller, behaviour: str, radians: float) -> Answers:
     """Time to turn by ``radians`` (positive left) to within 15 degrees, from frames of ``behaviour``, doing it on."""
     index = graph.behaviours.index(behaviour)
-    starts = evenly(np.flatnonzero(graph.behaviour == index))
 
     def done(world: World) -> NDArray[np.bool_]:
-        return np.abs(wrapped(radians - world.place[:, 2])) <= STEP
+        faces = np.abs(wrapped(radians - world.place[:, 2])) <= STEP
+        return faces & (graph.behaviour[world.node] == index)
 
-    return _until(graph, controller, starts, radians, index, done)
+    return _until(graph, controller, starts_of(graph, behaviour), radians, index, done)
 
 
 def change_times(graph: MotionGraph, controller: Controller, before: str, after: str) -> Answers:
     """Time until a frame of ``after`` is shown, from frames of ``before``, going straight on."""
     index = graph.behaviours.index(after)
-    starts = evenly(np.flatnonzero(graph.behaviour == graph.behaviours.index(before)))
-    return _until(graph, controller, starts, 0.0, index, lambda world: graph.behaviour[world.node] == index)
+    return _until(
+        graph, controller, starts_of(graph, before), 0.0, index, lambda world: graph.behaviour[world.node] == index
+    )
 
 
-def responsiveness(graph: MotionGraph, controller: Controller) -> dict[str, dict[str, dict[str, float | None]]]:
+def starts_of(graph: MotionGraph, behaviour: str) -> NDArray[np.int32]:
+    """The frames of a behaviour that commands are given at."""
+    return evenly(np.flatnonzero(graph.behaviour == graph.behaviours.index(behaviour)))
+
+
+def responsiveness(
+    graph: MotionGraph, controller: Controller, turn_limit: NDArray | None = None
+) -> dict[str, dict[str, dict[str, float | None]]]:
     """Mean and 95th percentile of the seconds that turns and changes of behaviour take, and the share answered.
 
-    ``turns`` has 90 degrees left and right and 180 for each behaviour that has a heading; ``changes`` has each
-    pair of behaviours that the graph shows. Times of what was not answered count as PATIENCE.
+    ``turns`` has 45, 90 and 135 degrees left and right and 180 for each behaviour that has a heading; ``changes`` has
+    each pair of behaviours that the graph shows. Times of what was not answered count as PATIENCE. ``shortest_s`` is
+    the mean of the shortest times from the same frames.
+
+    Args:
+        graph: where characters are.
+        controller: what is asked.
+        turn_limit: the largest extra turn on arriving at each node, radians; none where not given.  # (N,)
     """
+    limit = np.zeros(graph.node_count) if turn_limit is None else turn_limit
     headed = [name for name in controller.present if name in HEADED]
+    sides = [degrees for turn in TURNS for degrees in ((turn, -turn) if turn < 180 else (turn,))]
     turns = {
-        f"{name} {degrees:+d}": _summary(turn_times(graph, controller, name, np.radians(degrees)))
+        f"{name} {degrees:+d}": _turned(graph, controller, name, np.radians(degrees), limit)
         for name in headed
-        for degrees in (90, -90, 180)
+        for degrees in sides
     }
     lasting = [name for name in controller.present if name not in ONE_SHOT]
     changes = {
-        f"{before} to {after}": _summary(change_times(graph, controller, before, after))
+        f"{before} to {after}": _changed(graph, controller, before, after)
         for before in lasting
         for after in controller.present
         if before != after
@@ -64,9 +88,30 @@ def responsiveness(graph: MotionGraph, controller: Controller) -> dict[str, dict
     return {"turns": turns, "changes": changes}
 
 
-def _summary(answers: Answers) -> dict[str, float | None]:
+def _turned(
+    graph: MotionGraph, controller: Controller, behaviour: str, radians: float, limit: NDArray
+) -> dict[str, float | None]:
+    index = graph.behaviours.index(behaviour)
+    shortest = ticks_to_turn(graph, index, radians, STEP, limit, _TICKS)
+    answers = turn_times(graph, controller, behaviour, radians)
+    return _summary(answers, shortest[starts_of(graph, behaviour)])
+
+
+def _changed(graph: MotionGraph, controller: Controller, before: str, after: str) -> dict[str, float | None]:
+    shortest = ticks_to_behaviour(graph, graph.behaviours.index(after))
+    answers = change_times(graph, controller, before, after)
+    return _summary(answers, shortest[starts_of(graph, before)])
+
+
+def _summary(answers: Answers, shortest: NDArray[np.int32]) -> dict[str, float | None]:
     summary = answers.summary()
-    return {"mean_s": summary["mean"], "p95_s": summary["p95"], "answered_share": answers.share}
+    ticks = np.where(shortest == UNREACHED, _TICKS, np.minimum(shortest, _TICKS))
+    return {
+        "mean_s": summary["mean"],
+        "p95_s": summary["p95"],
+        "answered_share": answers.share,
+        "shortest_s": float(ticks.mean() * TICK),
+    }
 
 
 def _until(
@@ -78,18 +123,17 @@ def _until(
     done: Callable[[World], NDArray[np.bool_]],
 ) -> Answers:
     count = len(starts)
-    world = World(graph, count, inertialise=False)
+    world = World(graph, count, inertialise=False, foot_lock=False)
     for node in starts:
         controller.begin(world.spawn(int(node), 0.0, 0.0, 0.0))
     moves, slots = no_moves(count), np.arange(count)
     wanted, asked = np.full(count, heading), np.full(count, behaviour, np.int32)
-    ticks = round(PATIENCE / TICK)
-    taken = np.full(count, ticks)
-    for tick in range(ticks):
+    taken = np.full(count, _TICKS)
+    for tick in range(_TICKS):
         controller.choose(Situations(slots, world.node, world.place, wanted, asked), moves)
         world.step(moves)
-        taken[done(world) & (taken == ticks)] = tick
-        if (taken < ticks).all():
+        taken[done(world) & (taken == _TICKS)] = tick
+        if (taken < _TICKS).all():
             break
-    answered = taken < ticks
-    return Answers(np.where(answered, taken + 1, ticks) * TICK, answered)
+    answered = taken < _TICKS
+    return Answers(np.where(answered, taken + 1, _TICKS) * TICK, answered)
