@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.graph import MotionGraph
+from footwork.motion.graph_windows import NONE, GraphWindows
 from footwork.motion.metric import UNIT, align_windows
 from footwork.motion.moves import LEAP
 from footwork.motion.turn_warp import TurnWarp, adjustment_cost
-from footwork.motion.graph_windows import NONE, GraphWindows
 
 _AT_ONCE = 512
 

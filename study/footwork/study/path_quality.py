@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 from footwork.motion import quaternion
 from footwork.motion.graph import MotionGraph
+from footwork.motion.graph_windows import NONE, GraphWindows, laid
 from footwork.motion.kinematics import clip_places, forward
 from footwork.motion.metric import UNIT, align_windows
 from footwork.motion.tick import TICK
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_steps, soles
 from footwork.study.graph_paths import path_clip, path_nodes, path_seconds
-from footwork.motion.graph_windows import NONE, GraphWindows, laid
 
 _EDGES_AT_ONCE = 512
 
