@@ -82,13 +82,21 @@ def slide_of_clip(clip: Clip) -> Slide:
     return slide_of_frames(soles(clip.skeleton, clip_places(clip)[0]), clip.contacts, clip.fps)
 
 
-def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None) -> Slide:
-    """The slide of the source clips themselves, all or some, over the natural edges between captured frames."""
+def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None, highest: float = np.inf) -> Slide:
+    """The slide of the source clips themselves, all or some, over the natural edges between captured frames.
+
+    Args:
+        graph: the graph.
+        clips: indices of the clips that are meant; all where not given.
+        highest: a foot whose ball is higher than this is in the air whatever its contact says, metres.
+    """
     meant = graph.original if clips is None else graph.original & np.isin(graph.clip, clips)
     edges = np.flatnonzero(graph.natural & meant[graph.source] & meant[graph.target])
     source, target = graph.source[edges], graph.target[edges]
-    here = soles(graph.skeleton, forward(graph.skeleton, graph.root_position, graph.rotations)[0])
+    places = forward(graph.skeleton, graph.root_position, graph.rotations)[0]
+    here = soles(graph.skeleton, places)
+    standing = graph.contacts & (places[:, graph.skeleton.feet[:, 1], 1] <= highest)
     step = graph.displacement[edges].astype(np.float64)[:, None, None]
     x, z = turn(here[target][..., 0], here[target][..., 1], step[..., 2])
     ahead = np.stack([x, z], axis=-1) + step[..., :2]
-    return slide_of_steps(here[source], ahead, graph.contacts[source] & graph.contacts[target], TICK)
+    return slide_of_steps(here[source], ahead, standing[source] & standing[target], TICK)

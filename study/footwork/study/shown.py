@@ -1,4 +1,8 @@
-"""Measures of the poses that are shown: foot slide, skating, and how hard velocities jump at switches."""
+"""Measures of the poses that are shown: foot slide, skating, and how hard velocities jump at switches.
+
+Convention: a shown foot stands where the frame shown says so and its ball is no higher above where balls stand than one
+that stands may be (conventions.md 3): a foot in the air does not slide. The capture is measured alike.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.motion.contacts import GROUND_PERCENTILE
+from footwork.motion.contacts import GROUND_PERCENTILE, OFF_HEIGHT
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places, forward
 from footwork.motion.tick import TICK_RATE
@@ -21,7 +25,7 @@ class Shown:
     """What came of one run of poses.
 
     Args:
-        slide: of the feet, while the frames shown say that they stand.
+        slide: of the feet while they stand.
         skating: whether each foot skates at each step (``skating.skating_steps``).  # (F - 1, feet)
         switches: by how much the velocity of each joint changes at the frames before and after a switch, m/s.
         elsewhere: the same at all other frames.
@@ -47,12 +51,14 @@ def shown(
         ground: ``ground_of``.
     """
     places = forward(graph.skeleton, root, rotations)[0]
+    balls = places[:, graph.skeleton.feet[:, 1]]
+    standing = graph.contacts[nodes] & (balls[..., 1] <= ground + OFF_HEIGHT)
     # The frame that a switch leads to and the one before it: its jump is in the velocity between them.
     hard = switched[1:-1] | switched[2:]
     changes = np.linalg.norm(np.diff(places, n=2, axis=0), axis=-1) * TICK_RATE
     return Shown(
-        slide=slide_of_frames(soles(graph.skeleton, places), graph.contacts[nodes], TICK_RATE),
-        skating=skating_steps(places[:, graph.skeleton.feet[:, 1]], ground),
+        slide=slide_of_frames(soles(graph.skeleton, places), standing, TICK_RATE),
+        skating=skating_steps(balls, ground),
         switches=changes[hard].ravel(),
         elsewhere=changes[~hard].ravel(),
     )
@@ -89,7 +95,7 @@ def source_report(graph: MotionGraph) -> dict[str, Any]:
     skating = [skating_steps(clip_places(clip)[0][:, feet], ground).ravel() for clip in clips_of_graph(graph)]
     steps = np.concatenate(skating) if skating else np.zeros(0)
     return {
-        "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
+        "source_foot_slide_cm_s": slide_of_capture(graph, highest=ground + OFF_HEIGHT).cm_per_second,
         "source_skating_ratio": float(steps.mean()) if steps.size else None,
     }
 
