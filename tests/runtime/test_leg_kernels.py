@@ -10,12 +10,12 @@ from footwork.motion.kinematics import forward
 from footwork.runtime.leg_kernels import bent_knee
 
 BODY = default_body()
-SPAN = 0.83
+SPAN = 0.42, 0.41  # of the default body's thigh and shank
 
 
 def bent(places, turns, limb, target, longest):
     hip, knee, ankle = (tuple(places[joint]) for joint in limb[:3])
-    return bent_knee(hip, knee, ankle, tuple(turns[limb.upper]), tuple(target), longest)
+    return bent_knee(hip, knee, ankle, tuple(turns[limb.upper]), tuple(target), SPAN, longest)
 
 
 def random_pose(seed: int, spread: float = 0.5):
@@ -31,8 +31,7 @@ def test_the_kernel_bends_legs_as_the_array_form_does(seed, away, side):
     limb = leg(BODY, side)
     target = places[limb.tip] + away * random.normal(0.0, 1.0, 3)
     upper, lower = reach(places, turns, limb, target)
-    whole = np.linalg.norm(BODY.offsets[[limb.lower, limb.tip]], axis=-1).sum()
-    before_upper, before_lower = bent(places, turns, limb, target, whole)
+    before_upper, before_lower = bent(places, turns, limb, target, sum(SPAN))
     for found, own, expected in ((before_upper, limb.upper, upper), (before_lower, limb.lower, lower)):
         turned = quaternion.multiply(found, turns[own])
         assert abs(turned @ expected) == pytest.approx(1.0, abs=1e-9)
@@ -41,7 +40,7 @@ def test_the_kernel_bends_legs_as_the_array_form_does(seed, away, side):
 def test_a_leg_that_is_straight_bends_forward():
     places, turns = forward(BODY, [0.0, 0.94, 0.0], np.tile(quaternion.IDENTITY, (BODY.joint_count, 1)))
     limb = leg(BODY, "left")
-    before, _ = bent(places, turns, limb, places[limb.tip] + [0.0, 0.1, 0.0], SPAN)
+    before, _ = bent(places, turns, limb, places[limb.tip] + [0.0, 0.1, 0.0], sum(SPAN))
     knee = quaternion.rotate(before, places[limb.lower] - places[limb.upper])
     assert knee[2] > 0.1
     assert knee[0] == pytest.approx(0.0, abs=1e-9)

@@ -21,7 +21,6 @@ from footwork.motion.tick import TICK
 from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.leg_kernels import plus
 from footwork.runtime.motion_rows import VELOCITY
-from footwork.runtime.moving import within_half_turn
 from footwork.runtime.rotation_kernels import along, column3, column4, exp, multiply, planar, rotate, turned
 
 RELEASE_HALFLIFE = 0.05
@@ -30,6 +29,8 @@ FURTHEST, MOST_TURNED = 0.3, math.radians(60.0)
 """A lock further than this from its motion, metres and radians, is released."""
 _NEAR = 0.5
 """A share of those, within which a standing foot is locked (again)."""
+_LEAST_COSINE = math.cos(MOST_TURNED)
+_UPRIGHT = 1e-6  # metres from ankle to ball over the ground
 _SETTLED = 1e-6  # metres and radians: what is left is dropped
 
 
@@ -61,30 +62,42 @@ def _shown_turn(node, offset, joint, weights):
 
 
 @numba.njit(cache=True, nogil=True)
-def foot_at_tick(leg, bones, node, place, root_position, offset, root, weights):
-    """Ball (x, z) and yaw of a foot as its motion with inertialisation has it at the node's own moment.
-
-    Args:
-        leg: thigh, shank, foot and ball.  # (4,)
-        bones: rest offsets of the body.  # (J, 3)
-        node: ``motion_rows.node_rows`` of the node.  # (7, padded J)
-        place: planar place of the character.  # (3,)
-        root_position: of the node.  # (3,)
-        offset: ``motion_rows.offset_rows`` of the character.  # (6, padded J)
-        root: offset and velocity of its root.  # (2, 3)
-        weights: the first two of ``decay_weights`` over the tick.
-    """
+def _pelvis_at_tick(node, place, root_position, offset, root, weights):
+    """Place and rotation of joint 0 in the world as shown at its node's own moment; arguments as ``_foot_at_tick``."""
     a, b = weights
     motion = planar(column4(node, 0, 0), math.cos(0.5 * place[2]), math.sin(0.5 * place[2]))
     x, y, z = along((0.0, 0.0, 0.0), a, column3(offset, 0, 0), b, column3(offset, VELOCITY, 0))
-    turn = multiply(exp(x, y, z), motion)
     at = plus(turned(math.cos(place[2]), math.sin(place[2]), root_position), (place[0], 0.0, place[1]))
-    at = along(at, a, root[0], b, root[1])
+    return along(at, a, root[0], b, root[1]), multiply(exp(x, y, z), motion)
+
+
+@numba.njit(cache=True, nogil=True)
+def _foot_at_tick(pelvis, leg, bones, node, offset, weights):
+    """A foot as its motion with inertialisation has it at the node's own moment: ``sole_of`` its ankle and ball.
+
+    Args:
+        pelvis: place and rotation of joint 0 in the world.
+        leg: thigh, shank, foot and ball.  # (4,)
+        bones: rest offsets of the body.  # (J, 3)
+        node: ``motion_rows.node_rows`` of the node.  # (7, padded J)
+        offset: ``motion_rows.offset_rows`` of the character.  # (6, padded J)
+        weights: the first two of ``decay_weights`` over the tick.
+    """
+    at, turn = pelvis
     for k in range(3):
         at = plus(at, rotate(turn, bones[leg[k]]))
         turn = multiply(turn, _shown_turn(node, offset, leg[k], weights))
-    sole = rotate(turn, bones[leg[3]])
-    return at[0] + sole[0], at[2] + sole[2], math.atan2(sole[0], sole[2])
+    return sole_of(at, plus(at, rotate(turn, bones[leg[3]])))
+
+
+@numba.njit(cache=True, nogil=True)
+def sole_of(ankle, ball):
+    """A foot over the ground: its ball's x and z, and sine and cosine of its yaw; 0 and 1 where it points nowhere."""
+    x, z = ball[0] - ankle[0], ball[2] - ankle[2]
+    length = math.sqrt(x * x + z * z)
+    if length < _UPRIGHT:
+        return ball[0], ball[2], 0.0, 1.0
+    return ball[0], ball[2], x / length, z / length
 
 
 @numba.njit(cache=True, nogil=True)
@@ -121,7 +134,7 @@ def update_locks(
         legs: ``legs_of`` the body.  # (feet, 4)
         bones: its rest offsets.  # (J, 3)
         locked: which feet stay where they are.  # (C, feet)
-        anchor: where: ball x, z and yaw in the world.  # (C, feet, 3)
+        anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (C, feet, 4)
         slip: of feet not locked, offset and its velocity, as the tick begins.  # (C, feet, 2, 3)
     """
     a, b, _, _ = decay_weights(TICK, halflife)
@@ -130,17 +143,14 @@ def update_locks(
         if not active[who]:
             continue
         here = node[who]
+        pelvis = _pelvis_at_tick(nodes[here], place[who], root_position[here], offsets[who], roots[who], (a, b))
         for foot in range(legs.shape[0]):
-            own, rest = anchor[who, foot], slip[who, foot]
-            stays = contacts[here, foot] and contacts[target[who], foot]
             if not locked[who, foot]:
-                _die_away(rest, dying)
-            if not (stays or locked[who, foot]):
-                continue
-            at = foot_at_tick(
-                legs[foot], bones, nodes[here], place[who], root_position[here], offsets[who], roots[who], (a, b)
-            )
-            _renew(stays, at, who, foot, locked, own, rest)
+                _die_away(slip[who, foot], dying)
+            stays = contacts[here, foot] and contacts[target[who], foot]
+            if stays or locked[who, foot]:
+                sole = _foot_at_tick(pelvis, legs[foot], bones, nodes[here], offsets[who], (a, b))
+                locked[who, foot] = _renewed(stays, locked[who, foot], sole, anchor[who, foot], slip[who, foot])
 
 
 @numba.njit(cache=True, nogil=True)
@@ -157,21 +167,26 @@ def _die_away(slip, weights):
 
 
 @numba.njit(cache=True, nogil=True)
-def _renew(stays, at, who, foot, locked, anchor, slip):
-    """Keep, take or release the lock of one foot whose motion is at (x, z, yaw)."""
-    if locked[who, foot]:
-        slip[0, 0], slip[0, 1] = anchor[0] - at[0], anchor[1] - at[1]
-        slip[0, 2] = within_half_turn(anchor[2] - at[2])
+def _renewed(stays, is_locked, sole, anchor, slip):
+    """Whether a foot is locked in the tick to come; its anchor is set where a lock begins, its slip where one ends."""
+    if is_locked:
+        x, z = anchor[0] - sole[0], anchor[1] - sole[1]
+        sine, cosine = between_yaws(anchor[2], anchor[3], sole[2], sole[3])
+        if stays and x * x + z * z <= FURTHEST**2 and cosine >= _LEAST_COSINE:
+            return True
+        slip[0, 0], slip[0, 1], slip[0, 2] = x, z, math.atan2(sine, cosine)
         slip[1] = 0.0
-        locked[who, foot] = stays and _within(slip[0], 1.0)
-    elif stays and _within(slip[0], _NEAR):
-        for k in range(3):
-            anchor[k] = at[k] + slip[0, k]
-        locked[who, foot] = True
+        return False
+    x, z, yaw = slip[0]
+    if not stays or x * x + z * z > (_NEAR * FURTHEST) ** 2 or abs(yaw) > _NEAR * MOST_TURNED:
+        return False
+    sine, cosine = math.sin(yaw), math.cos(yaw)
+    anchor[0], anchor[1] = sole[0] + x, sole[1] + z
+    anchor[2], anchor[3] = sole[2] * cosine + sole[3] * sine, sole[3] * cosine - sole[2] * sine
+    return True
 
 
 @numba.njit(cache=True, nogil=True)
-def _within(offset, share):
-    """Whether an offset is within a share of the limits."""
-    away = math.sqrt(offset[0] * offset[0] + offset[1] * offset[1])
-    return away <= share * FURTHEST and abs(offset[2]) <= share * MOST_TURNED
+def between_yaws(sine, cosine, from_sine, from_cosine):
+    """Sine and cosine of one yaw less another."""
+    return sine * from_cosine - cosine * from_sine, cosine * from_cosine + sine * from_sine

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.tick import TICK
-from footwork.runtime.foot_lock import RELEASE_HALFLIFE
+from footwork.runtime.foot_lock import RELEASE_HALFLIFE, between_yaws, sole_of
 from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.leg_kernels import bent_knee, conjugate, dot, less, plus
-from footwork.runtime.moving import within_half_turn
 from footwork.runtime.rotation_kernels import multiply, planar, rotate, turned
 
 _STRAIGHTEST = 0.995
@@ -30,6 +29,7 @@ def hold_feet(
     fraction: float,
     legs: NDArray,
     bones: NDArray,
+    spans: NDArray,
     floor: float,
     locked: NDArray,
     anchor: NDArray,
@@ -44,31 +44,36 @@ def hold_feet(
         fraction: how much of the tick has passed, 0..1.
         legs: ``foot_lock.legs_of`` the body.  # (feet, 4)
         bones: its rest offsets.  # (J, 3)
+        spans: lengths of thigh and shank.  # (feet, 2)
         floor: no ball goes lower, metres.
         locked: which feet stay where they are.  # (C, feet)
-        anchor: where: ball x, z and yaw in the world.  # (C, feet, 3)
+        anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (C, feet, 4)
         slip: of feet not locked, offset and its velocity, as the tick begins.  # (C, feet, 2, 3)
         shown_root: joint 0 in the world, m.  # (C, 3) float32
         shown_rotations: local rotations xyzw, joint 0 in the world.  # (C, J, 4) float32
     """
     a, b, _, _ = decay_weights(fraction * TICK, RELEASE_HALFLIFE)
-    goals, turns = np.empty((legs.shape[0], 3)), np.empty(legs.shape[0])
+    goals, moved = np.empty((legs.shape[0], 5)), np.empty(legs.shape[0], dtype=np.bool_)
     for who in range(active.shape[0]):
         if not active[who]:
             continue
-        root, rotations = shown_root[who], shown_rotations[who]
-        moved, drop = False, 0.0
+        root, rotations, drop = shown_root[who], shown_rotations[who], 0.0
         for foot in range(legs.shape[0]):
-            own, rest = anchor[who, foot], slip[who, foot]
             pose = _leg_pose(legs[foot], bones, root, rotations)
-            x, z, yaw, up = _correction(pose, locked[who, foot], own, rest, a, b, floor)
-            moved |= x != 0.0 or z != 0.0 or yaw != 0.0 or up != 0.0
-            goal = _ankle_goal(pose, x, z, yaw, up)
-            drop = max(drop, _needed_drop(pose, goal, _longest(bones, legs[foot], pose)))
-            turns[foot] = yaw
-            goals[foot, 0], goals[foot, 1], goals[foot, 2] = goal
-        if moved:
-            _bend_legs(legs, bones, goals, turns, min(drop, DEEPEST), root, rotations)
+            change = _correction(pose, locked[who, foot], anchor[who, foot], slip[who, foot], a, b, floor)
+            x, z, sine, cosine, up = change
+            moved[foot] = x != 0.0 or z != 0.0 or sine != 0.0 or up != 0.0
+            if moved[foot]:
+                ankle = _ankle_goal(pose, change)
+                drop = max(drop, _needed_drop(pose, ankle, _longest(spans[foot], pose)))
+                goals[foot] = ankle[0], ankle[1], ankle[2], sine, cosine
+            else:
+                goals[foot] = pose[2][0], pose[2][1], pose[2][2], 0.0, 1.0
+        drop = min(drop, DEEPEST)
+        root[1] -= drop
+        for foot in range(legs.shape[0]):
+            if moved[foot] or drop > 0.0:
+                _bend_leg(legs[foot], bones, spans[foot], goals[foot], root, rotations)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -101,30 +106,30 @@ def _leg_pose(leg, bones, root, rotations):
 
 @numba.njit(cache=True, nogil=True)
 def _correction(pose, is_locked, anchor, slip, a, b, floor):
-    """How far the ball shall move (x, z), the foot turn, and the ball rise."""
-    ankle, ball = pose[2], pose[3]
+    """How far the ball shall move (x, z), the foot turn (sine, cosine), and the ball rise."""
+    ball = pose[3]
     up = max(floor - ball[1], 0.0)
     if is_locked:
-        yaw = math.atan2(ball[0] - ankle[0], ball[2] - ankle[2])
-        return anchor[0] - ball[0], anchor[1] - ball[2], within_half_turn(anchor[2] - yaw), up
-    x, z, yaw = a * slip[0, 0] + b * slip[1, 0], a * slip[0, 1] + b * slip[1, 1], a * slip[0, 2] + b * slip[1, 2]
-    return x, z, yaw, up
+        x, z, sine, cosine = sole_of(pose[2], ball)
+        sine, cosine = between_yaws(anchor[2], anchor[3], sine, cosine)
+        return anchor[0] - x, anchor[1] - z, sine, cosine, up
+    yaw = a * slip[0, 2] + b * slip[1, 2]
+    sine, cosine = (math.sin(yaw), math.cos(yaw)) if yaw != 0.0 else (0.0, 1.0)
+    return a * slip[0, 0] + b * slip[1, 0], a * slip[0, 1] + b * slip[1, 1], sine, cosine, up
 
 
 @numba.njit(cache=True, nogil=True)
-def _ankle_goal(pose, x, z, yaw, up):
+def _ankle_goal(pose, change):
     """Where the ankle goes when the ball is moved and the foot turned about it."""
-    ball = pose[3]
-    reach = turned(math.cos(yaw), math.sin(yaw), less(pose[2], ball))
-    return ball[0] + x + reach[0], ball[1] + up + reach[1], ball[2] + z + reach[2]
+    x, z, sine, cosine, up = change
+    reach = turned(cosine, sine, less(pose[2], pose[3]))
+    return plus(plus(pose[3], (x, up, z)), reach)
 
 
 @numba.njit(cache=True, nogil=True)
-def _longest(bones, leg, pose):
+def _longest(span, pose):
     """How far from its hip the ankle of a held leg may be."""
-    shank, foot = _bone(bones, leg[1]), _bone(bones, leg[2])
-    whole = math.sqrt(dot(shank, shank)) + math.sqrt(dot(foot, foot))
-    way = less(pose[2], pose[0])
+    whole, way = span[0] + span[1], less(pose[2], pose[0])
     return min(max(_STRAIGHTEST * whole, math.sqrt(dot(way, way))), _FULLY * whole)
 
 
@@ -137,21 +142,18 @@ def _needed_drop(pose, goal, longest):
 
 
 @numba.njit(cache=True, nogil=True)
-def _bend_legs(legs, bones, goals, turns, drop, root, rotations):
-    """Lower the hips and bring every ankle to its goal, its foot turned, in place."""
-    root[1] -= drop
-    pelvis = _quaternion(rotations, 0)
-    for foot in range(legs.shape[0]):
-        leg = legs[foot]
-        hip, knee, ankle, ball, thigh, shank, sole = _leg_pose(leg, bones, root, rotations)
-        goal = goals[foot, 0], goals[foot, 1], goals[foot, 2]
-        longest = _longest(bones, leg, (hip, knee, ankle, ball, thigh, shank, sole))
-        before_thigh, before_shank = bent_knee(hip, knee, ankle, thigh, goal, longest)
-        thigh, new_shank = multiply(before_thigh, thigh), multiply(before_shank, shank)
-        sole = planar(sole, math.cos(0.5 * turns[foot]), math.sin(0.5 * turns[foot]))
-        _put(rotations, leg[0], multiply(conjugate(pelvis), thigh))
-        _put(rotations, leg[1], multiply(conjugate(thigh), new_shank))
-        _put(rotations, leg[2], multiply(conjugate(new_shank), sole))
+def _bend_leg(leg, bones, span, goal, root, rotations):
+    """Bring an ankle to its goal (x, y, z) and turn its foot (sine, cosine), in place."""
+    pose = _leg_pose(leg, bones, root, rotations)
+    hip, knee, ankle, _, thigh, shank, sole = pose
+    target = goal[0], goal[1], goal[2]
+    before_thigh, before_shank = bent_knee(hip, knee, ankle, thigh, target, span, _longest(span, pose))
+    thigh, shank = multiply(before_thigh, thigh), multiply(before_shank, shank)
+    half = 1.0 / math.sqrt(goal[3] * goal[3] + (1.0 + goal[4]) * (1.0 + goal[4]))
+    sole = planar(sole, (1.0 + goal[4]) * half, goal[3] * half)
+    _put(rotations, leg[0], multiply(conjugate(_quaternion(rotations, 0)), thigh))
+    _put(rotations, leg[1], multiply(conjugate(thigh), shank))
+    _put(rotations, leg[2], multiply(conjugate(shank), sole))
 
 
 @numba.njit(cache=True, nogil=True)

@@ -47,7 +47,7 @@ def conjugate(q):
 
 
 @numba.njit(cache=True, nogil=True)
-def bent_knee(hip, knee, ankle, thigh_turn, target, longest):
+def bent_knee(hip, knee, ankle, thigh_turn, target, span, longest):
     """Rotations of the world to put before the thigh's and the shank's, so that the ankle comes to ``target``.
 
     Bones keep their lengths and their twist about the bending plane, and the knee points as it did
@@ -59,10 +59,11 @@ def bent_knee(hip, knee, ankle, thigh_turn, target, longest):
         ankle: place of the foot's joint.
         thigh_turn: the thigh's rotation in the world.
         target: where the ankle shall be.
+        span: lengths of thigh and shank, metres.
         longest: how far from the hip the ankle may come, metres, at most both bones' lengths.
     """
     to_knee, to_ankle, goal = less(knee, hip), less(ankle, knee), less(target, hip)
-    upper, lower = math.sqrt(dot(to_knee, to_knee)), math.sqrt(dot(to_ankle, to_ankle))
+    upper, lower = span[0], span[1]
     way = less(ankle, hip)
     way = scaled(way, 1.0 / max(math.sqrt(dot(way, way)), _TINY))
     pole = along(to_knee, -dot(to_knee, way), way, 0.0, way)
@@ -77,8 +78,8 @@ def bent_knee(hip, knee, ankle, thigh_turn, target, longest):
     outward = math.sqrt(max(upper * upper - ahead * ahead, 0.0))
     new_knee = along(scaled(new_way, ahead), outward, cross(new_normal, new_way), 0.0, way)
     new_ankle = less(scaled(new_way, distance), new_knee)
-    thigh = _between_frames(scaled(to_knee, 1.0 / upper), normal, _unit(new_knee), new_normal)
-    return thigh, _between_frames(scaled(to_ankle, 1.0 / lower), normal, _unit(new_ankle), new_normal)
+    thigh = _between_frames(scaled(to_knee, 1.0 / upper), normal, scaled(new_knee, 1.0 / upper), new_normal)
+    return thigh, _between_frames(scaled(to_ankle, 1.0 / lower), normal, scaled(new_ankle, 1.0 / lower), new_normal)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -87,16 +88,18 @@ def _unit(v):
 
 
 @numba.njit(cache=True, nogil=True)
-def _between(a, b):
-    """The smallest rotation of one unit vector onto another that is not opposite."""
-    x, y, z = cross(a, b)
-    w = 1.0 + dot(a, b)
-    scale = 1.0 / max(math.sqrt(x * x + y * y + z * z + w * w), _TINY)
-    return x * scale, y * scale, z * scale, w * scale
-
-
-@numba.njit(cache=True, nogil=True)
 def _between_frames(bone, normal, new_bone, new_normal):
-    """The rotation that takes a unit bone to another, and the normal of its bending plane with it."""
-    swing = _between(bone, new_bone)
-    return multiply(_between(rotate(swing, normal), new_normal), swing)
+    """The rotation that takes a unit bone to another, and the normal of its bending plane with it.
+
+    A swing of the bone, then a twist about it; each is (a x b, 1 + a . b) before it is brought to length one.
+    """
+    x, y, z = cross(bone, new_bone)
+    w = 1.0 + dot(bone, new_bone)
+    # turned by a quaternion of any length: the square of that length is 2 w
+    axis = x, y, z
+    across = cross(axis, normal)
+    carried = along(normal, 1.0, across, 1.0 / max(w, _TINY), cross(axis, across))
+    i, j, k = cross(carried, new_normal)
+    q = multiply((i, j, k, 1.0 + dot(carried, new_normal)), (x, y, z, w))
+    scale = 1.0 / max(math.sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]), _TINY)
+    return q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale

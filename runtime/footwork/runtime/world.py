@@ -96,10 +96,11 @@ class World:
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
         self._shown_rotations = np.zeros((capacity, joints, 4), dtype=np.float32)
         self._legs = legs_of(graph.skeleton)
+        self._spans = np.linalg.norm(graph.skeleton.offsets[self._legs[:, 1:3]], axis=-1)
         self._floor = lowest_balls(graph, self._legs)
         feet = len(self._legs)
         self._locked = np.zeros((capacity, feet), dtype=np.bool_)
-        self._anchor = np.zeros((capacity, feet, 3))
+        self._anchor = np.zeros((capacity, feet, 4))
         self._slip = np.zeros((capacity, feet, 2, 3))
         self._motion = (graph.root_position, graph.root_velocity, node_rows(graph))
 
@@ -157,7 +158,7 @@ class World:
         anchors, slips = self._anchor[slot], self._slip[slot]
         ahead = np.column_stack(rotated(anchors[:, 0] - old[0], anchors[:, 1] - old[1], turn))
         anchors[:, :2] = ahead + place[:2]
-        anchors[:, 2] += turn
+        anchors[:, 2:] = np.column_stack(rotated(anchors[:, 2], anchors[:, 3], turn))
         slips[..., 0], slips[..., 1] = rotated(slips[..., 0], slips[..., 1], turn)
 
     def step(self, moves: Moves) -> None:
@@ -266,6 +267,7 @@ class World:
             fraction,
             self._legs,
             self.graph.skeleton.offsets,
+            self._spans,
             self._floor,
             self._locked,
             self._anchor,
