@@ -22,7 +22,7 @@ from shared_data import MOTIONS, needs_motions
 # a run of all rows compiles every kernel of the pipeline where they are not cached yet
 pytestmark = pytest.mark.timeout(400)
 
-EVERY_ROW = ["Z-T1", "Z-T2", "Z-F6", "Z-F7", "Z-T3", "Z-T4", "Z-R1", "Z-F8", "Z-T5", "Z-B", "Z-F1,2", "Z-Q"]
+EVERY_ROW = ["Z-T1", "Z-T2", "Z-F6", "Z-F7", "Z-T3", "Z-T4", "Z-R1", "Z-F8", "Z-T5", "Z-T6", "Z-B", "Z-F1,2", "Z-Q"]
 ABOUT = {
     "version": "1",
     "command": "footwork reproduce",

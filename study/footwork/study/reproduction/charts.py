@@ -15,7 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 from footwork.study import drawing
 
 # marker colour -> variable of the page's style sheet
-_VARIABLES = {"#010101": "ink", "#020202": "faint", "#030303": "grid", "#040404": "standard", "#050505": "well"}
+_VARIABLES = {
+    "#010101": "ink",
+    "#020202": "faint",
+    "#030303": "grid",
+    "#040404": "standard",
+    "#050505": "well",
+    "#060606": "rival",
+}
 _COLOUR = {name: marker for marker, name in _VARIABLES.items()}
 STANDARD, WELL = "standard", "well"
 # the head of a file, a size of its own, a style that would hold for all of the page, names that figures share
@@ -37,7 +44,7 @@ class Series:
         name: for the legend.
         x: places across.
         y: places up; entries that are not finite leave a gap.
-        graph: STANDARD or WELL, which gives the colour.
+        graph: STANDARD or WELL, which gives the colour, or another of the style sheet's variables.
         published: drawn dashed and hollow; ours are solid and full.
         marks: whether each point has a mark.
     """

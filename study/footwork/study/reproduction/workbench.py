@@ -41,6 +41,11 @@ class Workbench:
         self._made: dict[Hashable, Any] = {}
 
     @property
+    def has_traces(self) -> bool:
+        """Whether the run was given a folder of recorded players' traces."""
+        return self._traces is not None
+
+    @property
     def traces(self) -> Path:
         """The folder of recorded players' traces.
 

@@ -64,6 +64,15 @@ SUBOPTIMALITY = {
 }
 STANDARD_SIZE = {"nodes": 2721, "MB": 4}
 
+# control, transition, their product, and frames in the largest part, by graph and threshold
+CONTROL = {
+    ("wcMG", 0.2): (0.74, 0.95, 0.70, 561),
+    ("MG", 0.2): (0.22, 0.99, 0.22, 36),
+    ("MG", 1.0): (0.24, 0.92, 0.22, 244),
+    ("MG", 5.0): (0.50, 0.84, 0.42, 524),
+    ("MG", 10.0): (0.51, 0.87, 0.44, 552),
+}
+
 # from, to
 BUILD_SECONDS = {"interpolation": (7.0, 7.0), "transitions": (16200.0, 16200.0), "reduction": (1800.0, 3600.0)}
 SMOOTH_UNDER = 0.6  # no discontinuity is seen under this threshold

@@ -1,0 +1,127 @@
+"""Characters that recorded players steer: bundles of one set of motion under many settings, and how each scores."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from footwork.errors import InputError
+from footwork.motion.bundle import Bundle
+from footwork.motion.task import SteeringTask
+from footwork.motion.trace import SOURCE_HZ, Trace, read_trace
+from footwork.study.contender import Contender
+from footwork.study.reproduction.workbench import Workbench
+from footwork.study.scoring import score
+from footwork.study.showing import Showing
+from footwork.training.build import build_bundle
+from footwork.training.dataset import Dataset, load_clips
+from footwork.training.graph_options import GraphOptions
+
+STANDARD, WELL_CONNECTED = "standard", "well-connected"
+QUICK_SET, QUICK_SECONDS, QUICK_TRACES = "dataset1", 20.0, 2
+WALK_JUMP_STOP = "walk_jump_stop_ranges.csv"
+NO_TRACES = "The run was given no folder of recorded players (--traces)."
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How a character is made.
+
+    Args:
+        graph: STANDARD or WELL_CONNECTED.
+        threshold: of its transitions.
+        mirror: whether clips are played with left and right exchanged, too.
+        warp: the largest extra turn of a tick, degrees.
+        bridges: ways from every frame to each other behaviour (``GraphOptions.bridges``).
+        reward: of its policy (``SteeringTask.reward``).
+        weight: of the transition quality, where the reward is a sum.
+    """
+
+    graph: str
+    threshold: float
+    mirror: bool = False
+    warp: float = 0.0
+    bridges: int = 0
+    reward: str = "product"
+    weight: float = 1.0
+
+    @property
+    def options(self) -> GraphOptions:
+        """How its graph is built."""
+        return GraphOptions(
+            graph=self.graph, threshold=self.threshold, mirror=self.mirror, bridges=self.bridges, mu=5.0
+        )
+
+    @property
+    def task(self) -> SteeringTask:
+        """What its policy is solved for."""
+        return SteeringTask(reward=self.reward, weight=self.weight, warp=math.radians(self.warp))
+
+    @property
+    def words(self) -> str:
+        """Such as ``mirrored, warped``."""
+        marks = [(self.mirror, "mirrored"), (self.warp > 0.0, "warped"), (self.bridges > 0, "bridged")]
+        return ", ".join(word for holds, word in marks if holds) or "plain"
+
+
+def players_of(bench: Workbench) -> list[Trace]:
+    """The recorded players by name; in a quick run the first seconds of two.
+
+    Raises:
+        InputError: for a folder without traces, or one that cannot be read.
+    """
+
+    def read() -> list[Trace]:
+        paths = sorted(bench.traces.glob("*.csv"))
+        if not paths:
+            raise InputError("no CSV files in it, expected at least one trace", bench.traces)
+        traces = [read_trace(path) for path in paths]
+        short = round(QUICK_SECONDS * SOURCE_HZ)
+        return [beginning(trace, short) for trace in traces[:QUICK_TRACES]] if bench.quick else traces
+
+    return bench.once("players", read)
+
+
+def beginning(trace: Trace, ticks: int) -> Trace:
+    """The first so many ticks of the recording."""
+    arrays = ("forward", "strafe", "run", "yaw_delta", "attack", "use")
+    return replace(trace, **{name: getattr(trace, name)[:ticks] for name in arrays})
+
+
+def motions_of(bench: Workbench, name: str, ranges: str | None = None) -> Dataset:
+    """A set's core ranges, or those of another table of the motions' folder; in a quick run a small set's."""
+    if bench.quick:
+        return bench.dataset(QUICK_SET)
+    if ranges is None:
+        return bench.dataset(name)
+    folder = bench.motions.folder
+
+    def read() -> Dataset:
+        return load_clips(folder / name, labels=bench.motions.labels, ranges=folder / ranges)
+
+    return bench.once(("dataset", name, ranges), read)
+
+
+def bundle_of(bench: Workbench, motions: Dataset, setting: Setting) -> Bundle | None:
+    """The bundle of a setting, None where its graph cannot be walked without end."""
+
+    def build() -> Bundle | None:
+        try:
+            return build_bundle(motions, setting.options, task=setting.task, progress=bench.tell)[0]
+        except InputError as error:
+            if "without end" not in str(error):
+                raise
+            return None
+
+    return bench.once(("bundle", id(motions), setting), build)
+
+
+def score_of(
+    bench: Workbench,
+    bundle: Bundle,
+    contender: Contender | None = None,
+    showing: Showing | None = None,
+    players: Sequence[Trace] = (),
+) -> dict[str, Any]:
+    """How a bundle's character, or another contender, follows the players; all of them where none are named."""
+    return score(bundle, players or players_of(bench), contender, showing=showing, progress=bench.tell)
