@@ -60,4 +60,15 @@ def test_boxes_hold_their_frames():
             assert (rows >= low[box]).all()
             assert (rows <= high[box]).all()
             assert not rows.size or (rows.min(axis=0) == low[box]).all()
-    np.testing.assert_array_equal(sets.frames[sets.frames != NOWHERE], np.concatenate(members))
+    for own, first, end in zip(members, sets.start, sets.start[1:], strict=False):
+        frames = sets.frames[LARGE * first : LARGE * end]
+        np.testing.assert_array_equal(np.sort(frames[frames != NOWHERE]), own)
+
+
+def test_frames_that_are_alike_share_a_box():
+    """Four heaps of frames, shuffled: no large box holds frames of two."""
+    random = np.random.default_rng(5)
+    heap = random.permutation(np.repeat(np.arange(4), LARGE))
+    values = (100.0 * heap[:, None] + random.normal(size=(len(heap), 27))).astype(np.float32)
+    boxes = heap[search_sets(values, [np.arange(len(heap))]).frames].reshape(-1, LARGE)
+    np.testing.assert_array_equal(boxes.min(axis=1), boxes.max(axis=1))

@@ -90,7 +90,7 @@ def test_turns_of_the_strong_form_are_bounded():
 
 def test_the_reference_keeps_a_character_near_its_simulated_root():
     character = Character(CONTROLLERS["reference"]).go(RUN, 0.0, 120)
-    median = character.controller._data.speed[RUN]
+    median = character.controller.data.speed[RUN]
     gone = character.places[-1][1] - character.places[59][1]
     assert gone == pytest.approx(median * 60 / 30.0, abs=0.4)
 

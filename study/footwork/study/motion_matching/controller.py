@@ -23,6 +23,9 @@ class MotionMatchingController:
         graph: what characters move on; its natural edges lead to the node next in number. Dead ends are left by leaps.
         options: the form.
 
+    Attributes:
+        data: what is searched.
+
     Raises:
         InputError: for a graph with other natural edges, or with no frame that may be searched.
     """
@@ -30,7 +33,7 @@ class MotionMatchingController:
     def __init__(self, graph: MotionGraph, options: MatchingOptions = REFERENCE) -> None:
         self.graph = graph
         self.options = options
-        self._data = database_of(graph, options)
+        self.data = database_of(graph, options)
         self._memory = memory_for(1)
 
     @property
@@ -41,7 +44,7 @@ class MotionMatchingController:
     @property
     def table_bytes(self) -> int:
         """The size of what is searched: features, boxes and frame numbers."""
-        return sum(array.nbytes for array in self._data.sets)
+        return sum(array.nbytes for array in self.data.sets)
 
     def start_node(self, behaviour: str = "stop") -> int:
         """Where to spawn: the frame after which the capture shows the behaviour longest, the first of equals.
@@ -53,7 +56,7 @@ class MotionMatchingController:
         if behaviour not in behaviours:
             raise InputError(f"no behaviour {behaviour!r}, it has {', '.join(behaviours)}", self.graph.where)
         shown = self.graph.behaviour == behaviours.index(behaviour)
-        return int(np.argmax(np.where(shown, self._data.run_left, -1)))
+        return int(np.argmax(np.where(shown, self.data.run_left, -1)))
 
     def begin(self, slot: int) -> None:
         """A new character has come into this slot: it stands where its simulated root does, and searches at once."""
@@ -65,7 +68,7 @@ class MotionMatchingController:
     def choose(self, situations: Situations, moves: Moves) -> None:
         """Write the move of each of C characters into ``moves``."""
         choose(
-            self._data,
+            self.data,
             self.options,
             self._memory,
             situations.slot,

@@ -69,17 +69,18 @@ REFERENCE = MatchingOptions()
 """The public reference implementation's: its times of 60 Hz as ticks of 30 Hz, its sharp changes as rates at 60 Hz."""
 
 STRONG = MatchingOptions(
-    weights=Weights(0.94, 0.22, 1.3, 1.75, 1.1),
-    search_ticks=34,
-    sharp_velocity=3.8,
-    sharp_turn=1.4,
-    velocity_halflife=0.037,
-    rotation_halflife=0.058,
-    skipped_end=10,
-    skipped_around=18,
-    skipped_run_end=7,
-    transition_cost=5.4,
+    weights=Weights(0.46, 0.51, 1.57, 1.66, 0.83),
+    search_ticks=38,
+    sharp_velocity=5.1,
+    sharp_turn=2.3,
+    velocity_halflife=0.017,
+    rotation_halflife=0.15,
+    skipped_end=7,
+    skipped_around=21,
+    skipped_run_end=10,
+    transition_cost=7.3,
     by_behaviour=True,
     follows=True,
+    turning=Turning(gain=0.33, gain_unheaded=0.19),
 )
-"""Tuned for the highest Total of every second recorded player by name, on mirrored clips that show all behaviours."""
+"""Tuned by ``tuning`` for the highest Total of its training traces, on mirrored clips that show all behaviours."""

@@ -48,7 +48,7 @@ def _note(asked, heading, speed, behaviour, options):
 
 
 @numba.njit(cache=True, nogil=True)
-def _write_query(query, node, root, speed, heading, data, options):
+def write_query(query, node, root, speed, heading, data, options):
     """The pose of the frame shown, and where the simulated root will be, as features."""
     for k in range(_POSITION):
         query[k] = data.values[node, k]
@@ -147,7 +147,7 @@ def choose(
         frame = node
         if sharp or not goes_on or memory.wait[slot] <= 0:
             memory.wait[slot] = options.search_ticks
-            _write_query(query, node, root, speed, heading, data, options)
+            write_query(query, node, root, speed, heading, data, options)
             frame = _found(query, node, behaviour, goes_on, data, options, scratch)
         memory.wait[slot] -= 1
         natural[who], target[who] = frame == node, frame + 1
