@@ -20,6 +20,7 @@ from footwork.controllers.controller import Situations
 from footwork.controllers.steering import SteeringController
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
+from footwork.motion.coded_values import exact
 from footwork.motion.graph import MotionGraph, captured
 from footwork.motion.moves import along_edges, no_moves
 from footwork.motion.table import PolicyTable
@@ -61,7 +62,7 @@ def made_up_table(graph: MotionGraph, random: np.random.Generator) -> PolicyTabl
     """Random values: what is looked up costs the same whatever it holds."""
     task = SteeringTask()
     values = random.uniform(0.0, 50.0, (graph.node_count, len(task.behaviours), task.heading_bins))
-    return PolicyTable(task, values.astype(np.float32), 0.0, 1, True)
+    return PolicyTable(task, exact(values), 0.0, 1, True)
 
 
 def wandering_edges(world: World, random: np.random.Generator) -> np.ndarray:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from footwork.motion.bundle import Bundle, sealed
+from footwork.motion.coded_values import exact
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from toy_graphs import BEHAVIOURS, graph_of, wandering_clip
@@ -20,5 +21,5 @@ def toy_bundle() -> Bundle:
     behaviour = np.repeat([BEHAVIOURS.index(name) for name in SHOWN], FRAMES)
     graph = graph_of(clips, jumps, behaviour)
     values = np.zeros((graph.node_count, len(BEHAVIOURS), SteeringTask().heading_bins), dtype=np.float32)
-    table = PolicyTable(SteeringTask(behaviours=BEHAVIOURS), values, residual=0.0, sweeps=1, converged=True)
+    table = PolicyTable(SteeringTask(behaviours=BEHAVIOURS), exact(values), residual=0.0, sweeps=1, converged=True)
     return sealed(Bundle(graph, {"steering": table}, attribution=("toy motion, nobody's",)))

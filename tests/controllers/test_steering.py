@@ -11,6 +11,7 @@ from footwork.controllers.steering import SteeringController, WrongQuestion
 from footwork.errors import InputError
 from footwork.motion.actions import actions_of
 from footwork.motion.body import default_body
+from footwork.motion.coded_values import exact
 from footwork.motion.graph import MotionGraph, captured
 from footwork.motion.lookahead import best_action
 from footwork.motion.moves import no_moves
@@ -55,18 +56,21 @@ def loops() -> MotionGraph:
 def solved(graph: MotionGraph, sweeps: int = 120) -> np.ndarray:
     """The values, by plain sweeps over every state."""
     values = np.zeros((graph.node_count, len(BEHAVIOURS), TASK.heading_bins))
-    choices = actions_of(graph, TASK)
+    choices, rows = actions_of(graph, TASK), values.shape[:2]
+    plain = np.zeros(rows), np.ones(rows)
     for _ in range(sweeps):
         old = values.copy()
         for (node, asked, bin_), _ in np.ndenumerate(values):
-            values[node, asked, bin_] = best_action(*choices, old, node, asked, float(TASK.headings[bin_]), False)[0]
+            values[node, asked, bin_] = best_action(
+                *choices, old, *plain, node, asked, float(TASK.headings[bin_]), False
+            )[0]
     return values.astype(np.float32)
 
 
 @cache
 def controller() -> SteeringController:
     graph = loops()
-    return SteeringController(graph, PolicyTable(TASK, solved(graph), 1e-2, 120, True))
+    return SteeringController(graph, PolicyTable(TASK, exact(solved(graph)), 1e-2, 120, True))
 
 
 def walk_towards(heading: float, ticks: int, start: int = STRAIGHT) -> tuple[World, list[int]]:
@@ -133,12 +137,12 @@ def test_tables_that_do_not_fit_are_refused():
     graph = loops()
     values = np.zeros((4, 4, 16), dtype=np.float32)
     with pytest.raises(InputError, match="not converged"):
-        SteeringController(graph, PolicyTable(TASK, values, 1.0, 5, False))
+        SteeringController(graph, PolicyTable(TASK, exact(values), 1.0, 5, False))
     with pytest.raises(InputError, match="3 nodes, expected the graph's 4"):
-        SteeringController(graph, PolicyTable(TASK, values[:3], 0.0, 5, True))
+        SteeringController(graph, PolicyTable(TASK, exact(values[:3]), 0.0, 5, True))
     other = SteeringTask(behaviours=("stop", "run", "walk", "jump"), heading_bins=16)
     with pytest.raises(InputError, match="behaviours stop, run, walk, jump, expected"):
-        SteeringController(graph, PolicyTable(other, values, 0.0, 5, True))
+        SteeringController(graph, PolicyTable(other, exact(values), 0.0, 5, True))
 
 
 def straight_on() -> MotionGraph:
@@ -200,7 +204,7 @@ def test_within_a_segment_a_decision_holds_for_each_character_by_itself():
 
 def test_of_equal_edges_the_first_is_taken():
     graph = loops()
-    level = PolicyTable(TASK, np.zeros((4, 4, 16), np.float32), 0.0, 1, True)
+    level = PolicyTable(TASK, exact(np.zeros((4, 4, 16))), 0.0, 1, True)
     moves = no_moves(1)
     asked = np.full(1, BEHAVIOURS.index("jump"), np.int32)
     place = np.zeros((1, 3))

@@ -11,6 +11,7 @@ from safetensors.numpy import load_file
 from footwork.errors import InputError
 from footwork.motion import tensor_file
 from footwork.motion.bundle import VERSION, Bundle, decode_bundle, encode_bundle, read_bundle, sealed, write_bundle
+from footwork.motion.coded_values import exact
 from footwork.motion.graph import ARRAYS
 from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.table import PolicyTable
@@ -28,7 +29,7 @@ def some_player() -> PlayerModel:
 
 def sample_bundle(nodes: int = 5, converged: bool = True) -> Bundle:
     values = np.random.default_rng(0).random((nodes, 2, TASK.heading_bins), np.float32)
-    table = PolicyTable(TASK, values, 1e-4, 400, converged, some_player())
+    table = PolicyTable(TASK, exact(values), 1e-4, 400, converged, some_player())
     provenance = {"files": [{"name": "a.bvh", "sha256": "0" * 64}], "options": {"threshold": 0.1 + 0.2}}
     return Bundle(ring_graph(nodes), {"steering": table}, provenance, ("Motion by someone, CC BY 4.0",))
 
@@ -79,6 +80,18 @@ def test_a_policy_without_a_player_model_reads_as_one(tmp_path):
     assert read_bundle(tmp_path / "b.footwork").table("steering").player is None
 
 
+def test_a_policy_in_sixteen_bits_reads_as_it_was_written(tmp_path):
+    bundle = sample_bundle()
+    table = bundle.table("steering").compact
+    write_bundle(tmp_path / "b.footwork", replace(bundle, tables={"steering": table}))
+    read = read_bundle(tmp_path / "b.footwork").table("steering")
+    for mine, other in zip(read.coded, table.coded, strict=True):
+        assert mine.dtype == other.dtype
+        np.testing.assert_array_equal(mine, other)
+    assert read.coded.codes.dtype == np.uint16
+    np.testing.assert_allclose(read.values, bundle.table("steering").values, atol=1e-5)
+
+
 def test_a_mapped_bundle_is_the_same_and_outlives_its_file(tmp_path):
     path = tmp_path / "b.footwork"
     digest = write_bundle(path, sample_bundle(5))
@@ -105,7 +118,7 @@ def test_arrays_are_read_only_views_of_the_file(sample_bytes):
 def test_other_programs_read_the_arrays(tmp_path):
     write_bundle(tmp_path / "b.footwork", sample_bundle())
     arrays = load_file(tmp_path / "b.footwork")
-    assert arrays["table.steering"].shape == (5, 2, 36)
+    assert arrays["table.steering.codes"].shape == (5, 2, 36)
 
 
 def test_every_changed_byte_is_noticed(sample_bytes):
@@ -152,7 +165,7 @@ def test_a_newer_version_says_so():
         (lambda about, arrays: arrays.update({"graph.target": np.full(5, 99, np.int32)}), "target holds 99"),
         (lambda about, arrays: arrays.update({"graph.cost": np.full(5, np.nan, np.float32)}), "cost.*nan"),
         (lambda about, arrays: arrays.update({"graph.cost": np.zeros(4, np.float32)}), "cost has shape"),
-        (lambda about, arrays: arrays.update({"table.steering": np.zeros((4, 2, 36), np.float32)}), "4 rows"),
+        (lambda about, arrays: arrays.update({"table.steering.codes": np.zeros((4, 2, 36), np.float32)}), "low has"),
         (lambda about, arrays: about["tables"]["steering"].update(converged=False), "not converged"),
         (lambda about, arrays: about["tables"]["steering"]["task"].update(discount=1.0), "discount is 1"),
         (lambda about, arrays: about["tables"]["steering"]["task"].update(heading_bins="36"), "heading_bins"),
@@ -165,7 +178,10 @@ def test_a_newer_version_says_so():
         (lambda about, arrays: about.pop("clips"), "clips"),
         (lambda about, arrays: arrays.update({"graph.target": np.full(5, 0.5, np.float32)}), "target' holds float32"),
         (lambda about, arrays: arrays.update({"skeleton.masses": np.ones(21, np.int32)}), "masses' holds int32"),
-        (lambda about, arrays: arrays.update({"table.steering": np.zeros((5, 2, 36))}), "steering' holds float64"),
+        (
+            lambda about, arrays: arrays.update({"table.steering.codes": np.zeros((5, 2, 36))}),
+            "expected float32 or uint16",
+        ),
         (lambda about, arrays: arrays.update({"graph.rotations": np.zeros((5, 21, 4), np.float32)}), "of length 0"),
         (lambda about, arrays: arrays.update({"graph.cost": np.full(5, -1, np.float32)}), "cost holds -1"),
         (lambda about, arrays: arrays.update({"graph.smoothness": np.full(5, 1.1, np.float32)}), "expected 0 to 1"),

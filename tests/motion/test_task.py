@@ -41,12 +41,13 @@ def test_the_kernel_gives_the_same_quality():
 
 def test_interpolation_is_periodic_and_exact_at_the_bins():
     values = np.random.default_rng(1).normal(size=(2, 3, TASK.heading_bins))
-    row = values[1, 2]
+    row, lowest, step = values[1, 2], np.full((2, 3), 7.0), np.full((2, 3), 3.0)
+    coded = (values - 7.0) / 3.0, lowest, step
     for place, value in zip(TASK.headings, row, strict=True):
-        assert lookahead.interpolate(values, 1, 2, place) == pytest.approx(value)
-        assert lookahead.interpolate(values, 1, 2, place + 4 * math.pi) == pytest.approx(value)
+        assert lookahead.interpolate(*coded, 1, 2, place) == pytest.approx(value)
+        assert lookahead.interpolate(*coded, 1, 2, place + 4 * math.pi) == pytest.approx(value)
     middle = math.pi - math.pi / TASK.heading_bins
-    assert lookahead.interpolate(values, 1, 2, middle) == pytest.approx(0.5 * (row[-1] + row[0]))
+    assert lookahead.interpolate(*coded, 1, 2, middle) == pytest.approx(0.5 * (row[-1] + row[0]))
 
 
 def test_rewards_of_a_tick():

@@ -6,8 +6,8 @@ import pytest
 from footwork.controllers.controller import Situations
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
-from footwork.motion.moves import no_moves
 from footwork.motion.coded_values import exact
+from footwork.motion.moves import no_moves
 from footwork.motion.table import PolicyTable
 from footwork.study.foresight import Foresight
 from planning import TASK, best_sum, graph_of_whole_turns, played_sum, player
@@ -16,7 +16,7 @@ from planning import TASK, best_sum, graph_of_whole_turns, played_sum, player
 def table(graph, seed: int | None = None) -> PolicyTable:
     shape = graph.node_count, len(TASK.behaviours), TASK.heading_bins
     values = np.zeros(shape) if seed is None else np.random.default_rng(seed).uniform(0.0, 3.0, shape)
-    return PolicyTable(TASK, values.astype(np.float32), 0.0, 1, True)
+    return PolicyTable(TASK, exact(values), 0.0, 1, True)
 
 
 @pytest.mark.parametrize("seed", range(2))

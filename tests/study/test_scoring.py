@@ -7,6 +7,7 @@ import pytest
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
+from footwork.motion.coded_values import exact
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.study.replay import Stage, replay
@@ -44,7 +45,7 @@ def ring_bundle(turn: float = 0.0) -> Bundle:
     graph = ring_graph(12, turn)
     task = SteeringTask(behaviours=graph.behaviours)
     values = np.zeros((graph.node_count, 2, task.heading_bins), np.float32)
-    return Bundle(graph, {"steering": PolicyTable(task, values, 0.0, 1, True)})
+    return Bundle(graph, {"steering": PolicyTable(task, exact(values), 0.0, 1, True)})
 
 
 def test_a_character_that_does_as_it_is_told_scores_one():

@@ -10,6 +10,7 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion import threads
 from footwork.motion.actions import actions_of, onward_edges
+from footwork.motion.coded_values import exact
 from footwork.motion.moves import no_moves
 from footwork.motion.player_model import PlayerModel
 from footwork.motion.table import PolicyTable
@@ -209,4 +210,4 @@ def test_a_player_model_of_other_axes_is_refused():
     values = np.zeros((4, 2, 12), np.float32)
     other = PlayerModel(("walk", "stop"), fickle_player().change)
     with pytest.raises(InputError, match="behaviours walk, stop, the task has stop, walk"):
-        PolicyTable(TASK, values, 0.0, 1, True, other)
+        PolicyTable(TASK, exact(values), 0.0, 1, True, other)

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from footwork.controllers.controller import Situations, present_behaviours
 from footwork.errors import FootworkError, InputError
 from footwork.motion.actions import Actions, actions_of, onward_edges
+from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import MotionGraph
 from footwork.motion.lookahead import best_action
 from footwork.motion.moves import Moves, along_edges
@@ -30,7 +31,7 @@ def first_outside(index: NDArray, length: int) -> int:
 @numba.njit(cache=True, nogil=True)
 def decide(
     actions: Actions,
-    values: NDArray,
+    coded: CodedValues,
     onward: NDArray,
     segment_ticks: int,
     exact: bool,
@@ -47,7 +48,7 @@ def decide(
 
     Args:
         actions: of the graph and the task.
-        values: PolicyTable.values.  # (N, B, H)
+        coded: PolicyTable.coded.
         onward: ``onward_edges``.  # (N,)
         segment_ticks: SteeringTask.segment_ticks.
         exact: whether turns may lie between the levels.
@@ -57,6 +58,7 @@ def decide(
         turn: the result, radians.  # (C,)
     """
     edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
+    codes, lowest, step = coded
     for who in range(node.shape[0]):
         if held[slot[who]] > 0:
             held[slot[who]] -= 1
@@ -76,7 +78,9 @@ def decide(
                 turn_smoothness,
                 headed,
                 rules,
-                values,
+                codes,
+                lowest,
+                step,
                 node[who],
                 behaviour[who],
                 left,
@@ -110,7 +114,7 @@ class SteeringController:
 
     def __init__(self, graph: MotionGraph, table: PolicyTable, *, exact_facing: bool = True) -> None:
         table.require_converged()
-        nodes = len(table.values)
+        nodes = len(table.coded.codes)
         if nodes != graph.node_count:
             raise InputError(f"{nodes} nodes, expected the graph's {graph.node_count}", table.where)
         if table.task.behaviours != graph.behaviours:
@@ -140,7 +144,7 @@ class SteeringController:
     @property
     def table_bytes(self) -> int:
         """The size of what it looks things up in."""
-        return self.table.values.nbytes
+        return self.table.coded.nbytes
 
     def begin(self, slot: int) -> None:
         """Decide anew at the next tick."""
@@ -160,7 +164,7 @@ class SteeringController:
         edge, turn = self._edge[:count], self._turn[:count]
         decide(
             self._actions,
-            self.table.values,
+            self.table.coded,
             self._onward,
             self.table.task.segment_ticks,
             self.exact_facing,

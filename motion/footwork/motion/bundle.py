@@ -12,6 +12,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion import tensor_file
+from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import ARRAYS, MotionGraph
 from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.skeleton import Skeleton
@@ -26,6 +27,7 @@ _BODY_ARRAYS = {
     "masses": np.float64,
     "feet": np.int32,
 }
+_CODED = {"codes": (np.float32, np.uint16), "low": np.float32, "step": np.float32}
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +66,8 @@ class Bundle:
 
     def _check_table(self, table: PolicyTable) -> None:
         graph = self.graph
-        if len(table.values) != graph.node_count:
-            problem = f"{len(table.values)} rows, expected one for each of {graph.node_count} nodes"
+        if len(table.coded.codes) != graph.node_count:
+            problem = f"{len(table.coded.codes)} rows, expected one for each of {graph.node_count} nodes"
             raise InputError(problem, table.where)
         if table.task.behaviours != graph.behaviours:
             problem = f"behaviours {', '.join(table.task.behaviours)}, the graph has {', '.join(graph.behaviours)}"
@@ -174,7 +176,7 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
 
 def _table_arrays(name: str, table: PolicyTable) -> dict[str, NDArray]:
     player = {} if table.player is None else {f"player.{name}": table.player.change}
-    return {f"table.{name}": table.values} | player
+    return {f"table.{name}.{part}": array for part, array in table.coded._asdict().items()} | player
 
 
 def _about_table(table: PolicyTable) -> _Table:
@@ -182,21 +184,23 @@ def _about_table(table: PolicyTable) -> _Table:
     return _Table(table.task, table.residual, table.sweeps, table.converged, learned_from)
 
 
-def _take(arrays: Mapping[str, NDArray], name: str, kind: DTypeLike, where: str) -> NDArray:
+def _take(arrays: Mapping[str, NDArray], name: str, kinds: DTypeLike | tuple, where: str) -> NDArray:
     if name not in arrays:
         raise InputError(f"no array {name!r}, it has {', '.join(sorted(arrays)) or 'none'}", where)
-    if arrays[name].dtype != kind:
-        raise InputError(f"array {name!r} holds {arrays[name].dtype}, expected {np.dtype(kind)}", where)
+    kinds = kinds if isinstance(kinds, tuple) else (kinds,)
+    if arrays[name].dtype not in kinds:
+        expected = " or ".join(str(np.dtype(kind)) for kind in kinds)
+        raise InputError(f"array {name!r} holds {arrays[name].dtype}, expected {expected}", where)
     return arrays[name]
 
 
 def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PolicyTable:
-    values = _take(arrays, f"table.{name}", np.float32, where)
+    coded = CodedValues(*(_take(arrays, f"table.{name}.{part}", kind, where) for part, kind in _CODED.items()))
     if not math.isfinite(about.residual):
         raise InputError(f"table {name!r} has a residual of {about.residual}, expected a finite number", where)
     return PolicyTable(
         about.task,
-        values,
+        coded,
         about.residual,
         about.sweeps,
         about.converged,

@@ -21,15 +21,16 @@ def wrapped_angle(angle: float) -> float:
 
 
 @numba.njit(cache=True, nogil=True)
-def interpolate(values: NDArray, node: int, wanted: int, heading: float) -> float:
-    """The periodic linear interpolation of ``values[node, wanted]``, tabulated evenly from -pi on, at ``heading``."""
-    bins = values.shape[2]
+def interpolate(codes: NDArray, lowest: NDArray, step: NDArray, node: int, wanted: int, heading: float) -> float:
+    """The periodic linear interpolation, at ``heading``, of a row of CodedValues tabulated evenly from -pi on."""
+    bins = codes.shape[2]
     turns = heading / (2.0 * math.pi) + 0.5
     place = (turns - math.floor(turns)) * bins
     low = min(int(place), bins - 1)
     high = low + 1 if low + 1 < bins else 0
     share = place - low
-    return values[node, wanted, low] * (1.0 - share) + values[node, wanted, high] * share
+    code = codes[node, wanted, low] * (1.0 - share) + codes[node, wanted, high] * share
+    return lowest[node, wanted] + step[node, wanted] * code
 
 
 @numba.njit(cache=True, nogil=True)
@@ -50,13 +51,21 @@ def reward_of(control: float, smoothness: float, additive: bool, weight: float) 
 
 @numba.njit(cache=True, nogil=True)
 def arrival_value(
-    rules: Rules, values: NDArray, there: int, wanted: int, heading: float, control: float, smoothness: float
+    rules: Rules,
+    codes: NDArray,
+    lowest: NDArray,
+    step: NDArray,
+    there: int,
+    wanted: int,
+    heading: float,
+    control: float,
+    smoothness: float,
 ) -> float:
     """r + discount W of a tick that ends at a node, judged there (conventions.md 5).
 
     Args:
         rules: of the task.
-        values: PolicyTable.values.  # (N, B, H)
+        codes: of CodedValues, and so are ``lowest`` and ``step``.  # (N, B, H)
         there: the node arrived at.
         wanted: index of the behaviour asked for.
         heading: wanted heading less facing on arrival, radians.
@@ -64,7 +73,7 @@ def arrival_value(
         smoothness: qt of the edge and the extra turn together.
     """
     reward = reward_of(control, smoothness, rules.additive, rules.weight)
-    return reward + rules.discount * interpolate(values, there, wanted, heading)
+    return reward + rules.discount * interpolate(codes, lowest, step, there, wanted, heading)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -80,7 +89,9 @@ def best_action(
     turn_smoothness: NDArray,
     headed: NDArray,
     rules: Rules,
-    values: NDArray,
+    codes: NDArray,
+    lowest: NDArray,
+    step: NDArray,
     node: int,
     wanted: int,
     heading: float,
@@ -90,7 +101,7 @@ def best_action(
 
     Args:
         edge_start: as of Actions, and so are the arrays up to ``rules``.
-        values: PolicyTable.values.  # (N, B, H)
+        codes: of CodedValues, and so are ``lowest`` and ``step``.  # (N, B, H)
         node: where the character is.
         wanted: index of the behaviour asked for.
         heading: wanted heading less facing, radians.
@@ -105,13 +116,13 @@ def best_action(
             turn = limit * level[k]
             control = control_quality(left - turn, matches, gaussian, rules.heading_sigma)
             quality = smoothness[edge] * turn_smoothness[there, k]
-            value = arrival_value(rules, values, there, wanted, left - turn, control, quality)
+            value = arrival_value(rules, codes, lowest, step, there, wanted, left - turn, control, quality)
             if value > highest:
                 highest, best, best_turn = value, edge, turn
         turn = wrapped_angle(left)
         if exact and abs(turn) < limit:
             quality = smoothness[edge] * math.exp(-4.0 * price[there] * math.sin(0.5 * turn) ** 2)
-            value = arrival_value(rules, values, there, wanted, 0.0, 1.0 if matches else 0.0, quality)
+            value = arrival_value(rules, codes, lowest, step, there, wanted, 0.0, 1.0 if matches else 0.0, quality)
             if value > highest:
                 highest, best, best_turn = value, edge, turn
     return highest, best, best_turn

@@ -1,12 +1,12 @@
 """The policy table: the worth of every node under every command, looked ahead from at run time."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from footwork.errors import InputError
-from footwork.motion.arrays import frozen, require_finite, require_shape
+from footwork.motion.coded_values import CodedValues, quantised
 from footwork.motion.player_model import PlayerModel
 from footwork.motion.task import SteeringTask
 
@@ -20,10 +20,10 @@ class PolicyTable:
 
     Args:
         task: the axes, the reward, the actions and the discount.
-        values: discounted reward to come.  # (N, B, H)
-        residual: the largest change of any of these values by one more backup.
+        coded: discounted reward to come, as it is or in sixteen bits.  # (N, B, H)
+        residual: the largest change of any of these values by one more backup, or a bound of it.
         sweeps: how many sweeps were made.
-        converged: whether the residual came under the tolerance.
+        converged: whether the residual came under the tolerance before values were rounded to sixteen bits.
         player: how commands were taken to change from tick to tick; None for never.
 
     Raises:
@@ -31,7 +31,7 @@ class PolicyTable:
     """
 
     task: SteeringTask
-    values: NDArray[np.float32]
+    coded: CodedValues
     residual: float
     sweeps: int
     converged: bool
@@ -39,11 +39,21 @@ class PolicyTable:
     where: str = "policy table"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "values", frozen(self.values, np.float32))
-        require_shape(self.values, (None, len(self.task.behaviours), self.task.heading_bins), "values", self.where)
-        require_finite(self.values, "values", self.where)
+        checked = self.coded.checked(len(self.task.behaviours), self.task.heading_bins, self.where)
+        object.__setattr__(self, "coded", checked)
         if self.player is not None:
             require_axes(self.player, self.task)
+
+    @property
+    def values(self) -> NDArray[np.float32]:
+        """Discounted reward to come; made anew each time where it is kept in sixteen bits.  # (N, B, H)"""
+        return self.coded.values
+
+    @property
+    def compact(self) -> "PolicyTable":
+        """The same policy in sixteen bits; a backup doubles an error at most, so that bounds the residual."""
+        coded = quantised(self.values)
+        return replace(self, coded=coded, residual=self.residual + float(coded.step.max(initial=0.0)))
 
     @property
     def error_bound(self) -> float:

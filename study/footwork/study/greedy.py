@@ -3,8 +3,8 @@
 import numpy as np
 
 from footwork.controllers.steering import SteeringController
-from footwork.motion.graph import MotionGraph
 from footwork.motion.coded_values import exact
+from footwork.motion.graph import MotionGraph
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 

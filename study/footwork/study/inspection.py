@@ -27,7 +27,7 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
     """
     graph = bundle.graph
     sizes = {"graph": sum(getattr(graph, name).nbytes for name in ARRAYS)}
-    sizes |= {f"table {name}": table.values.nbytes for name, table in bundle.tables.items()}
+    sizes |= {f"table {name}": table.coded.nbytes for name, table in bundle.tables.items()}
     steering = bundle.tables.get("steering")
     return {
         "digest": bundle.digest,

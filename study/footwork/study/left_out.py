@@ -59,7 +59,7 @@ def tables_without(
             )
         player = learned(others, table.task, present_behaviours(graph))
         tell = _telling(progress, f"without {known[digest].name}", done, len(known))
-        tables[digest] = solve(graph, table.task, player=player, progress=tell).require_converged()
+        tables[digest] = solve(graph, table.task, player=player, progress=tell).require_converged().compact
     return tables
 
 

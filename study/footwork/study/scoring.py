@@ -126,7 +126,5 @@ def _sigma(bundle: Bundle) -> float:
 
 def _table_megabytes(contender: Contender) -> float | None:
     """What it looks things up in beside the graph, None where it does not say."""
-    if isinstance(contender, SteeringController):
-        return contender.table.values.nbytes / _MEGABYTE
     bytes_there = getattr(contender, "table_bytes", None)
     return None if bytes_there is None else bytes_there / _MEGABYTE

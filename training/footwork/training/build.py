@@ -82,7 +82,7 @@ def build_bundle(
     built = _RECIPES[options.graph](clips, options, task, stages)
     with stages("policy") as tell:
         player = learned(players, task, _shown_behaviours(built.graph)) if players else None
-        table = solve(built.graph, task, player=player, progress=tell).require_converged()
+        table = solve(built.graph, task, player=player, progress=tell).require_converged().compact
     extra = _mirrored_frames(motions, options)
     provenance = _provenance(motions, options, task, built, extra) | choice
     bundle = sealed(Bundle(built.graph, {"steering": table}, provenance, tuple(motions.attribution)))

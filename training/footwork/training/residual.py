@@ -50,6 +50,7 @@ def bellman_residual(
 def _back_up(actions: Actions, headings: NDArray, begin: int, end: int, values: NDArray, backed: NDArray) -> None:
     """Write the worth of the best action at each heading of the nodes begin..end-1."""
     edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
+    lowest, step = np.zeros(values.shape[:2]), np.ones(values.shape[:2])
     for node in range(begin, end):
         for wanted in range(values.shape[1]):
             for h in range(values.shape[2]):
@@ -66,6 +67,8 @@ def _back_up(actions: Actions, headings: NDArray, begin: int, end: int, values: 
                     headed,
                     rules,
                     values,
+                    lowest,
+                    step,
                     node,
                     wanted,
                     headings[h],

@@ -14,6 +14,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion.actions import Actions, actions_of, onward_edges
+from footwork.motion.coded_values import exact
 from footwork.motion.graph import MotionGraph
 from footwork.motion.player_model import PlayerModel
 from footwork.motion.table import PolicyTable, require_axes
@@ -82,7 +83,7 @@ def solve(
     values = solution.values.astype(np.float32)
     residual = bellman_residual(values, actions, onward, task, player, spans_of(actions.edge_start))
     rounding = 2.0 * float(np.spacing(np.abs(values).max()))
-    return PolicyTable(task, values, residual, solution.sweeps, residual < tolerance + rounding, player)
+    return PolicyTable(task, exact(values), residual, solution.sweeps, residual < tolerance + rounding, player)
 
 
 def fixed_point(
