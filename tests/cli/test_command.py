@@ -118,7 +118,7 @@ def test_a_damaged_bundle_in_the_cache_is_built_anew(tmp_path):
         (("build", "embedded:dancing", "--out", "x.footwork"), "there are locomotion, fighting"),
         (("build", "embedded:locomotion", "--out", "/no/such/folder/x.footwork"), "--out: no folder"),
         (("build", "embedded:locomotion", "--out", "/tmp"), "--out: /tmp is a folder"),
-        (("build", "embedded:locomotion", "--out", "x.footwork", "--graph", "round"), "there is standard"),
+        (("build", "embedded:locomotion", "--out", "x.footwork", "--graph", "round"), "expected one of standard"),
         (("build", "embedded:locomotion", "--out", "x.footwork", "--threshold", "nan"), "expected a positive number"),
         (("build", "embedded:locomotion", "--out", "x.footwork", "--discount", "1"), "expected 0 <= discount < 1"),
         (("build", "embedded:locomotion", "--out", "x.footwork", "--backend", "grid"), "there is threads, dask"),

@@ -33,7 +33,22 @@ def test_what_is_out_of_range_is_refused_by_name(option, value):
 
 def test_a_standard_graph_records_nothing_of_the_well_connected_one():
     expected = {"graph": "standard", "threshold": 1.0, "metric": "uniform", "mirror": False, "bridges": 0}
-    assert GraphOptions(mu=3.0).record() == expected
+    assert GraphOptions().record() == expected
+
+
+@pytest.mark.parametrize(
+    "given", [{"mu": 3.0}, {"weights": 4}, {"pairing": "plain"}, {"order": "random"}, {"mu": 1.0, "order": "reverse"}]
+)
+def test_options_of_the_well_connected_graph_are_refused_for_a_standard_one(given):
+    named = ", ".join(f"--{name}" for name in given)
+    with pytest.raises(InputError, match=rf"^{named}: a standard graph has no such option, .*--graph well-connected$"):
+        GraphOptions(**given)
+    assert GraphOptions(graph="well-connected", **given).record().items() >= given.items()
+
+
+def test_an_unknown_name_is_met_by_those_there_are():
+    with pytest.raises(InputError, match=r"^--graph: no graph 'foo', expected one of standard, well-connected$"):
+        GraphOptions(graph="foo")
 
 
 def test_a_threshold_left_to_the_data_is_no_number_yet():

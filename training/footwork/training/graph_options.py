@@ -1,7 +1,7 @@
 """What kind of motion graph is to be built, and how."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Literal
 
 from footwork.errors import InputError
@@ -38,7 +38,7 @@ class GraphOptions:
         order: The order in which a well-connected graph takes the frames that paths begin at: frames, reverse, random.
 
     Raises:
-        InputError: for an unknown name or a number out of range.
+        InputError: for an unknown name, a number out of range, or an option that this kind of graph does not have.
     """
 
     graph: str = "standard"
@@ -64,6 +64,16 @@ class GraphOptions:
             raise InputError(f"{self.bridges}, expected 0 to {MAX_BRIDGES}", "--bridges")
         if self.weights != "auto" and not 1 <= self.weights <= MAX_WEIGHTS:
             raise InputError(f"{self.weights}, expected auto or 1 to {MAX_WEIGHTS}", "--weights")
+        if self.graph != "well-connected":
+            self._require_unused()
+
+    def _require_unused(self) -> None:
+        """Refuse what this kind of graph would pass over without a word."""
+        usual = {field.name: field.default for field in fields(self)}
+        given = [f"--{name}" for name in _WELL_CONNECTED if getattr(self, name) != usual[name]]
+        if given:
+            problem = f"a {self.graph} graph has no such option, expected it with --graph well-connected"
+            raise InputError(problem, ", ".join(given))
 
     @property
     def number(self) -> float:
@@ -82,4 +92,4 @@ class GraphOptions:
 
 def _require_name(name: str, known: tuple[str, ...], option: str) -> None:
     if name not in known:
-        raise InputError(f"{name!r} is none, there is {', '.join(known)}", f"--{option}")
+        raise InputError(f"no {option} {name!r}, expected one of {', '.join(known)}", f"--{option}")

@@ -38,12 +38,12 @@ def warm(options: GraphOptions) -> None:
     """Compile every kernel of a build, or load it from where an earlier run left it, on two swaying clips."""
     task, clips = SteeringTask(), [_swaying_clip()] * 2
     # whatever else is asked for, only the metric has kernels of its own; bad motions are told of by the build itself
-    small = replace(options, graph="standard", threshold=1.0, weights=1)
+    small = replace(options, graph="well-connected", threshold=1.0, weights=1)
     built = build_standard(clips, small, task, Stages())
     solve(built.graph, task)
     if options.graph == "well-connected":
         with suppress(InputError):
-            build_well_connected(clips, replace(small, graph="well-connected"), task, Stages())
+            build_well_connected(clips, small, task, Stages())
 
 
 def _swaying_clip() -> Clip:
