@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from footwork.errors import InputError
+from footwork.motion.capture import read_capture
 from footwork.motion.clip import Clip
 from footwork.motion.kinematics import clip_places, facing_yaw
 from footwork.motion.mirror import mirrored
+from footwork.motion.name_table import table_for
+from footwork.motion.retarget import common_body_of, onto_common_body
+from shared_data import MOTIONS, needs_motions
 from toy_graphs import wandering_clip
 
 RANDOM = np.random.default_rng(1)
@@ -76,3 +80,14 @@ def test_a_body_that_is_not_its_own_mirror_image_is_refused(change, problem):
     contacts = CLIP.contacts[:, : len(lame.feet)]
     with pytest.raises(InputError, match=problem):
         mirrored(replace(CLIP, skeleton=lame, contacts=contacts))
+
+
+@needs_motions
+def test_the_common_body_of_real_people_is_its_own_mirror_image():
+    captured = [read_capture(MOTIONS / "dataset1" / name) for name in ("07_01.amc", "07_08.amc")]
+    body = common_body_of(captured)
+    clip = onto_common_body(captured[0], body, table_for(captured[0].skeleton))
+    image = mirrored(clip)
+    assert image.skeleton is clip.skeleton
+    others = body.indices(OTHER)
+    np.testing.assert_allclose(clip_places(image)[0], clip_places(clip)[0][:, others] * [-1.0, 1.0, 1.0], atol=1e-12)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from footwork.controllers.command import UnknownBehaviour
+from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.world import WorldFull
@@ -95,3 +96,19 @@ def test_a_bundle_without_steering_or_behaviours_is_refused():
     graph = replace(BUNDLE.graph, behaviour=np.full(BUNDLE.graph.node_count, -1))
     with pytest.raises(InputError, match="no frame shows any behaviour"):
         Simulation(replace(BUNDLE, graph=graph), 1)
+
+
+def test_the_world_lives_on_the_graph_of_its_controller():
+    other = toy_bundle()
+    controller = SteeringController(other.graph, other.tables["steering"])
+    simulation = Simulation(BUNDLE, 1, controller=controller)
+    assert simulation.world.graph is other.graph
+    assert simulation.world.graph is not BUNDLE.graph
+    slot = simulation.spawn(0.0, 0.0, 0.0, "walk")
+    run(simulation, 3)
+    assert simulation.show(1.0).behaviour[slot] >= 0
+
+
+def test_feet_are_held_unless_told_otherwise():
+    assert Simulation(BUNDLE, 1).world.foot_lock
+    assert not Simulation(BUNDLE, 1, foot_lock=False).world.foot_lock
