@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from footwork.errors import InputError
 from footwork.study.measures import Followed
 from footwork.study.reproduction import workbench
 from footwork.study.reproduction.character_tables import characters_table, control_chart, heading_chart, shares_table
 from footwork.study.reproduction.motion_sets import MotionSets
-from footwork.study.reproduction.players import Setting, bundle_of, motions_of, players_of, score_of
+from footwork.study.reproduction.players import Setting, bundle_of, motions_of, players_of, score_of, unseen
 from footwork.study.reproduction.row import Verdict
 from footwork.study.reproduction.rows import characters, control_policies
 from footwork.study.reproduction.workbench import Workbench
@@ -44,6 +45,12 @@ def test_without_players_nothing_is_judged_and_nothing_fails(motions, row):
     result = row.run(Workbench(motions, quick=True))
     assert {judgement.verdict for judgement in result.judgements} == {Verdict.OPEN}
     assert "--traces" in result.judgements[0].reason
+
+
+def test_too_few_players_to_learn_from_are_told(motions, tmp_path):
+    (tmp_path / "one.csv").write_text("")
+    with pytest.raises(InputError, match="1 CSV files in it, expected traces to learn from and others to score"):
+        players_of(Workbench(motions, traces=tmp_path))
 
 
 def test_characters_are_judged_against_the_strong_rival_and_their_clips():
@@ -84,7 +91,9 @@ def test_charts_are_drawn():
 def test_a_quick_run_scores_a_character_on_the_beginnings_of_real_players(motions):
     bench = Workbench(motions, traces=TRACES, quick=True)
     assert [trace.seconds for trace in players_of(bench)] == [20.0, 20.0]
+    assert len(unseen(bench)) == 1
     bundle = bundle_of(bench, motions_of(bench, "dataset3"), Setting("standard", 20.0))
     assert bundle is not None
+    assert bundle.table("steering").player is not None
     assert 0.0 < score_of(bench, bundle)["total"] < 1.0
     assert bundle_of(bench, motions_of(bench, "dataset3"), Setting("standard", 0.001)) is None

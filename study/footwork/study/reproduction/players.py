@@ -10,6 +10,7 @@ from footwork.motion.bundle import Bundle
 from footwork.motion.task import SteeringTask
 from footwork.motion.trace import SOURCE_HZ, Trace, read_trace
 from footwork.study.contender import Contender
+from footwork.study.motion_matching.tuning import split
 from footwork.study.reproduction.workbench import Workbench
 from footwork.study.scoring import score
 from footwork.study.showing import Showing
@@ -68,18 +69,24 @@ def players_of(bench: Workbench) -> list[Trace]:
     """The recorded players by name; in a quick run the first seconds of two.
 
     Raises:
-        InputError: for a folder without traces, or one that cannot be read.
+        InputError: for a folder of fewer than two traces, or one that cannot be read.
     """
 
     def read() -> list[Trace]:
         paths = sorted(bench.traces.glob("*.csv"))
-        if not paths:
-            raise InputError("no CSV files in it, expected at least one trace", bench.traces)
+        if len(paths) < 2:
+            problem = f"{len(paths)} CSV files in it, expected traces to learn from and others to score"
+            raise InputError(problem, bench.traces)
         traces = [read_trace(path) for path in paths]
         short = round(QUICK_SECONDS * SOURCE_HZ)
         return [beginning(trace, short) for trace in traces[:QUICK_TRACES]] if bench.quick else traces
 
     return bench.once("players", read)
+
+
+def unseen(bench: Workbench) -> list[Trace]:
+    """The players that characters are scored by: no policy learned from them, and no rival was tuned on them."""
+    return split(players_of(bench))[1]
 
 
 def beginning(trace: Trace, ticks: int) -> Trace:
@@ -103,11 +110,15 @@ def motions_of(bench: Workbench, name: str, ranges: str | None = None) -> Datase
 
 
 def bundle_of(bench: Workbench, motions: Dataset, setting: Setting) -> Bundle | None:
-    """The bundle of a setting, None where its graph cannot be walked without end."""
+    """The bundle of a setting, None where its graph cannot be walked without end.
+
+    Its policy has learned from every other player how they change their mind.
+    """
+    seen = split(players_of(bench))[0]
 
     def build() -> Bundle | None:
         try:
-            return build_bundle(motions, setting.options, task=setting.task, progress=bench.tell)[0]
+            return build_bundle(motions, setting.options, task=setting.task, players=seen, progress=bench.tell)[0]
         except InputError as error:
             if "without end" not in str(error):
                 raise
@@ -123,5 +134,5 @@ def score_of(
     showing: Showing | None = None,
     players: Sequence[Trace] = (),
 ) -> dict[str, Any]:
-    """How a bundle's character, or another contender, follows the players; all of them where none are named."""
-    return score(bundle, players or players_of(bench), contender, showing=showing, progress=bench.tell)
+    """How a bundle's character, or another contender, follows players: the unseen ones where none are named."""
+    return score(bundle, players or unseen(bench), contender, showing=showing, progress=bench.tell)

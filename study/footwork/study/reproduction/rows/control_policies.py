@@ -16,8 +16,8 @@ from footwork.study.reproduction.players import (
     Setting,
     bundle_of,
     motions_of,
-    players_of,
     score_of,
+    unseen,
 )
 from footwork.study.reproduction.row import (
     OURS,
@@ -58,8 +58,9 @@ def run(bench: Workbench) -> Result:
         figures=[_figure(found)],
         numbers={f"{kind} {at:g}": _numbers(one) for (kind, at), one in found.items() if one},
         notes=[
-            f"{len(players_of(bench))} recorded players of an action game; the published players were gentler, and "
-            "their frames and sigma are not known. Control and Transition are means over ticks, Total their product; "
+            f"{len(unseen(bench))} recorded players of an action game, whom no policy learned from; from the others it "
+            "learned how players change their mind. The published players were gentler, and the sigma of the published "
+            "Transition is not known. Control and Transition are means over ticks, Total their product; "
             "intervals are bootstraps over players. Published SCC counts frames of theirs.",
             *([f"A quick run: {QUICK_SET} in place of the walk, jump, stop set, and few seconds."] * bench.quick),
         ],
