@@ -35,11 +35,21 @@ def test_boxes_find_what_brute_force_and_a_plain_loop_find(seed, frames):
     sets, scratch = search_sets(values, members), np.empty(frames, np.float32)
     for number, own in enumerate(members):
         near = int(random.integers(frames))
-        query = (values[near] + random.normal(0.0, 0.5, 27)).astype(np.float32)
+        query = (values[near] + random.uniform(0.1, 3.0) * random.normal(size=27)).astype(np.float32)
         for skipped in ((near - 10, near + 11), (NOWHERE, NOWHERE)):
             for cost in (np.inf, float(random.uniform(0.0, 20.0))):
                 asked = query, sets, number, skipped, cost, scratch
                 assert nearest(*asked) == nearest_by_brute_force(*asked) == plain(query, values, own, skipped, cost)
+
+
+def test_no_box_is_left_out_that_may_hold_the_nearest():
+    """Queries far from everything, as those of a player who turns at once: their distances differ by little."""
+    random, values, members = made_up(8, 3000)
+    sets, scratch = search_sets(values, members), np.empty(3000, np.float32)
+    for _ in range(200):
+        query = (random.choice(values) + random.choice([1.0, 4.0]) * random.normal(size=27)).astype(np.float32)
+        asked = query, sets, 0, (NOWHERE, NOWHERE), np.inf, scratch
+        assert nearest(*asked) == nearest_by_brute_force(*asked)
 
 
 def test_of_equals_the_first_frame_is_found():
