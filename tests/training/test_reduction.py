@@ -122,6 +122,13 @@ def test_a_stream_looks_for_paths_to_what_another_found_beyond_its_budgets(seed)
     np.testing.assert_array_equal(pruned.edges, whole.edges)
 
 
+def test_what_another_stream_keeps_is_reached_from_nodes_that_were_searched_before():
+    # a graph in which the best way to such a node leaves one whose budget was large enough all along
+    graph = random_graph(84, clips=4, chains=60, edges=900, longest=20, ties=True)
+    pruned, whole = (reduced(*graph, 1.1, streams=2, prune=prune) for prune in (True, False))
+    np.testing.assert_array_equal(pruned.edges, whole.edges)
+
+
 def test_streams_side_by_side_find_the_same_every_time():
     graph = random_graph(5, clips=6, chains=60, edges=900)
     found = [reduced(*graph, 2.0, streams=3).edges.tolist() for _ in range(5)]

@@ -1,13 +1,9 @@
 """The best paths from one original frame to all others, by Dijkstra's search that passes over what cannot matter.
 
-A search follows kept nodes freely and leaves them only where it may still pay. The *budget* of a node that is not
-kept is the largest label with which it could be on a best path to a kept node: the largest, over all kept nodes b, of
-(label of b) - (cost from the node to b). The budget of a kept node is the largest label with which leaving the kept
-nodes there could pay.
-Budgets of one search, one frame larger, bound those of a search from the frame before: whatever it wants to reach, it
-can reach by its natural edge and the other's path. Keeping more nodes only lowers labels, and a node kept since had a
-label within its budget, so the bound stays one. A label equal to its budget is still explored: so every best
-path is found, and which of equal ones is taken does not depend on budgets.
+A search takes up the labels of the one before it, from the next frame of the clip: what that can reach is reached by
+the natural edge and its path. Counted from the clip's last frame, labels only fall, by better paths from the new frame
+and by edges that are cheaper since their ends are kept; only where they fall edges are followed. It follows kept nodes
+first and leaves them only where budgets say that it may still pay (``budgets``).
 """
 
 from typing import NamedTuple
@@ -16,21 +12,21 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.training.bucket_queue import NONE, BucketQueue, first, put, remove
+from footwork.training.bucket_queue import NONE, BucketQueue, bucket, first, is_queued, put, remove
 from footwork.training.kept_edges import KeptEdges
 
 
 class Paths(NamedTuple):
-    """The labels of a search and what it leaves to the next; T is the integer type of costs.
+    """What is known between the searches of a clip; T is the integer type of costs.
 
     Args:
-        label: cost of the best path to each node, ``unknown`` where none was found.  # (N,) T
+        label: cost of the best path to each node, less the shift of the search; ``unknown`` where none was
+            found.  # (N,) T
         parent: the node before each on its best path.  # (N,)
         budget: a bound on each node's budget, less the shift of the search.  # (N,) T
         leaf: for each node left, the part of its budget that is due to its edges to nodes not kept, ``unknown`` where
             one of them was followed.  # (N,) T
-        touched: the nodes with labels.  # (N + 1,)
-        left: the nodes whose edges to nodes not kept were followed, in the order they were settled.  # (N,)
+        left: the nodes whose edges to nodes not kept the last search followed, in the order they were settled.  # (N,)
         unknown: more than any label.  # (1,) T
     """
 
@@ -38,7 +34,6 @@ class Paths(NamedTuple):
     parent: NDArray[np.int32]
     budget: NDArray
     leaf: NDArray
-    touched: NDArray[np.int32]
     left: NDArray[np.int32]
     unknown: NDArray
 
@@ -47,43 +42,101 @@ def no_paths(count: int, kind: type[np.signedinteger]) -> Paths:
     """Before the first search among N nodes, with costs of a type."""
     unknown = np.array([1 << (np.iinfo(kind).bits - 2)], dtype=kind)
     label, budget, leaf = (np.full(count, unknown[0], dtype=kind) for _ in range(3))
-    # one more: a search writes down what it has reached before it knows whether that is new
-    parent, touched, left = (np.full(count + 1, NONE, dtype=np.int32) for _ in range(3))
-    return Paths(label, parent, budget, leaf, touched, left, unknown)
+    parent, left = (np.full(count, NONE, dtype=np.int32) for _ in range(2))
+    return Paths(label, parent, budget, leaf, left, unknown)
 
 
 def forget(paths: Paths, useful: NDArray[np.bool_]) -> None:
     """Give every useful node an unbounded budget and the others none: before a search that follows no other."""
+    paths.label[:] = paths.unknown
     paths.budget[:] = np.where(useful, paths.unknown, -paths.unknown)
 
 
+class Progress(NamedTuple):
+    """How far a search has come.
+
+    Args:
+        sown: how many seeds are queued.
+        queued: how many nodes stand in the queue.
+        turn: the bucket whose turn it is.
+        left: how many nodes ``Paths.left`` holds.
+        looked: how many edges were looked at.
+    """
+
+    sown: int
+    queued: int
+    turn: int
+    left: int
+    looked: int
+
+
+BEGUN = Progress(0, 0, -(1 << 62), 0, 0)  # before every bucket
+
+
 @numba.njit(cache=True, nogil=True)
-def search(origin: int, edges: KeptEdges, paths: Paths, queue: BucketQueue, shift: int) -> tuple[int, int, int, int]:
-    """Label all that a best path from ``origin`` to a kept node may pass.
+def spread(seeds: NDArray, due: NDArray, edges: KeptEdges, paths: Paths, queue: BucketQueue) -> Progress:
+    """Lower the labels of kept nodes by paths over kept nodes; ``left`` are then the nodes whose labels fell.
+
+    Args:
+        seeds: kept nodes whose edges may lower labels, by label.  # (S,)
+        due: their labels.  # (S,)
+        edges: the graph.
+        paths: of the search before; changed.
+        queue: empty, and so again at the end.
+    """
+    label, parent, kept, start, middle = paths.label, paths.parent, edges.kept, edges.start, edges.middle
+    target, base, head, after, before = edges.target, edges.base, queue.head, queue.after, queue.before
+    sown, queued, left, turn, looked = 0, 0, 0, bucket(due[0]), 0
+    while queued > 0 or sown < len(seeds):
+        turn = turn if queued > 0 else max(turn, bucket(due[sown]))
+        sown, more = _sow(seeds, due, label, head, after, before, sown, turn)
+        queued += more
+        node = first(head, turn)
+        if node == NONE:
+            turn += 1
+            continue
+        remove(head, after, before, node)
+        queued -= 1
+        here = label[node]
+        looked += middle[node] - start[node]
+        for at in range(start[node], middle[node]):
+            there = target[at]
+            new = here + base[at]
+            if new <= label[there]:
+                queued += _lower(kept, label, parent, head, after, before, node, there, new)
+        paths.left[left] = node
+        left += 1
+    return Progress(sown, queued, turn, left, looked)
+
+
+@numba.njit(cache=True, nogil=True)
+def search(
+    seeds: NDArray, due: NDArray, edges: KeptEdges, paths: Paths, queue: BucketQueue, so_far: Progress, most: int
+) -> Progress:
+    """Lower the labels of all that a best path from the origin to a kept node may pass.
 
     Of equal paths to a node the one whose last edge comes from a kept node is taken, then the one from the node of
     the lowest number.
 
     Args:
-        origin: a kept node.
+        seeds: the nodes whose edges may lower labels, by label.  # (S,)
+        due: their labels.  # (S,)
         edges: the graph.
-        paths: no labels, and budgets of an earlier search; filled.
-        queue: empty, and so again at the end.
-        shift: what the budgets have grown by since they were written.
-
-    Returns:
-        How many nodes were touched and how many left, how many buckets were gone through and edges looked at.
+        paths: of the search before; changed.
+        queue: empty, and so again at the end, unless the search stopped before.
+        so_far: where to go on.
+        most: how many nodes are left before it stops, so that budgets can be lowered; then it can go on.
     """
     # taken out of their tuples here: inside the loop that would count references
     label, parent, budget, unknown = paths.label, paths.parent, paths.budget, paths.unknown[0]
     kept, start, middle, target = edges.kept, edges.start, edges.middle, edges.target
-    base, far, reached = edges.base, edges.far, paths.touched
+    base, far = edges.base, edges.far
     head, after, before = queue.head, queue.after, queue.before
-    label[origin], parent[origin] = 0, origin
-    reached[0] = origin
-    put(head, after, before, origin, 0)
-    queued, touched, left, turn, looked = 1, 1, 0, 0, 0
-    while queued > 0:
+    sown, queued, turn, left, looked = so_far
+    while (queued > 0 or sown < len(seeds)) and left < most:
+        turn = turn if queued > 0 else max(turn, bucket(due[sown]))
+        sown, more = _sow(seeds, due, label, head, after, before, sown, turn)
+        queued += more
         node = first(head, turn)
         if node == NONE:
             turn += 1
@@ -91,34 +144,46 @@ def search(origin: int, edges: KeptEdges, paths: Paths, queue: BucketQueue, shif
         remove(head, after, before, node)
         queued -= 1
         here, cheap = label[node], kept[node]
+        if not cheap and here > budget[node]:
+            continue
         looked += middle[node] - start[node]
         for at in range(start[node], middle[node]):
             there = target[at]
             new = here + (base[at] if cheap else far[base[at]])
             if new <= label[there]:
-                found = _lower(kept, label, parent, head, after, before, unknown, node, there, new)
-                reached[touched] = there
-                touched, queued = touched + found, queued + found
-        used = here - shift
-        if cheap and used > budget[node]:
+                queued += _lower(kept, label, parent, head, after, before, node, there, new)
+        if cheap and here > budget[node]:
             continue
         looked += start[node + 1] - middle[node]
         leaf = -unknown
         for at in range(middle[node], start[node + 1]):
             there, cost = target[at], far[base[at]]
             room = budget[there] - cost
-            if used > room:
+            if here > room:
                 leaf = max(leaf, room)
                 continue
             leaf, new = unknown, here + cost
             if new <= label[there]:
-                found = _lower(kept, label, parent, head, after, before, unknown, node, there, new)
-                reached[touched] = there
-                touched, queued = touched + found, queued + found
+                queued += _lower(kept, label, parent, head, after, before, node, there, new)
         paths.leaf[node] = leaf
         paths.left[left] = node
         left += 1
-    return touched, left, turn, looked
+    return Progress(sown, queued, turn, left, looked)
+
+
+@numba.njit(inline="always")
+def _sow(
+    seeds: NDArray, due: NDArray, label: NDArray, head: NDArray, after: NDArray, before: NDArray, sown: int, turn: int
+) -> tuple[int, int]:
+    """Queue the seeds whose turn has come; how many are sown now, and how many of these were queued."""
+    queued = 0
+    while sown < len(seeds) and bucket(due[sown]) <= turn:
+        # one that was reached at less since has had its turn
+        if label[seeds[sown]] == due[sown]:
+            put(head, after, before, seeds[sown], due[sown])
+            queued += 1
+        sown += 1
+    return sown, queued
 
 
 @numba.njit(inline="always")
@@ -129,53 +194,30 @@ def _lower(
     head: NDArray,
     after: NDArray,
     before: NDArray,
-    unknown: int,
     node: int,
     there: int,
     new: int,
 ) -> int:
-    """Reach ``there`` by a path over ``node`` that costs no more than its best so far; 1 if it is the first."""
+    """Reach ``there`` by a path over ``node`` that costs no more than its best so far; 1 if it is queued for that."""
     old = label[there]
     if new == old:
-        last = parent[there]
-        # the origin is its own parent and keeps it
-        if last != there and (kept[node] > kept[last] or (kept[node] == kept[last] and node < last)):
+        if comes_first(kept, parent, node, there):
             parent[there] = node
         return 0
-    if old != unknown:
+    stood = is_queued(before, there)
+    if stood:
         remove(head, after, before, there)
     label[there], parent[there] = new, node
     put(head, after, before, there, new)
-    return 1 if old == unknown else 0
+    return 0 if stood else 1
 
 
-@numba.njit(cache=True, nogil=True)
-def tighten(edges: KeptEdges, paths: Paths, left: int, shift: int) -> int:
-    """Lower the budgets of the nodes that a search left, given its labels; returns how many edges were looked at.
-
-    From the last settled to the first, so that most of what a node leads to is lowered before it. No budget is
-    above its node's label: the label of b is at most that of the node and the cost on to b.
-    """
-    label, budget, unknown = paths.label, paths.budget, paths.unknown[0]
-    start, middle, target, base, far = edges.start, edges.middle, edges.target, edges.base, edges.far
-    looked = 0
-    for k in range(left):
-        node = paths.left[k]
-        budget[node] = min(budget[node], label[node] - shift)
-    for k in range(left - 1, -1, -1):
-        node = paths.left[k]
-        best = paths.leaf[node]
-        if best == unknown:
-            best = -unknown
-            for at in range(middle[node], start[node + 1]):
-                best = max(best, budget[target[at]] - far[base[at]])
-            looked += int(start[node + 1] - middle[node])
-        if not edges.kept[node]:
-            for at in range(start[node], middle[node]):
-                best = max(best, label[target[at]] - far[base[at]] - shift)
-            looked += int(middle[node] - start[node])
-        budget[node] = min(budget[node], best)
-    return looked
+@numba.njit(inline="always")
+def comes_first(kept: NDArray, parent: NDArray, node: int, there: int) -> bool:
+    """Whether of two equal paths to ``there`` that over ``node`` is taken."""
+    last = parent[there]
+    # the origin is its own parent and keeps it
+    return last != there and (kept[node] > kept[last] or (kept[node] == kept[last] and node < last))
 
 
 @numba.njit(cache=True, nogil=True)

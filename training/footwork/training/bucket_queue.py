@@ -23,7 +23,7 @@ class BucketQueue(NamedTuple):
     Args:
         head: first node of each bucket, NONE for none.  # (B,)
         after: the node behind each queued one, NONE for none.  # (N,)
-        before: the node ahead of it, or NONE - 1 - b at the head of bucket b.  # (N,)
+        before: the node ahead of it, NONE - 1 - b at the head of bucket b; NONE for nodes that are not queued.  # (N,)
     """
 
     head: NDArray[np.int32]
@@ -67,6 +67,19 @@ def remove(head: NDArray, after: NDArray, before: NDArray, node: int) -> None:
         head[NONE - 1 - ahead] = behind
     if behind != NONE:
         before[behind] = ahead
+    before[node] = NONE
+
+
+@numba.njit(inline="always")
+def is_queued(before: NDArray, node: int) -> bool:
+    """Whether a node is in the queue."""
+    return before[node] != NONE
+
+
+@numba.njit(inline="always")
+def bucket(label: int) -> int:
+    """The bucket of a label, counted from label 0 on."""
+    return label >> _SHIFT
 
 
 @numba.njit(inline="always")

@@ -5,11 +5,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.training.best_paths import forget, no_paths, search, take, tighten
+from footwork.training.best_paths import BEGUN, forget, no_paths, search, spread, take
 from footwork.training.bucket_queue import bucket_queue
+from footwork.training.budgets import bound, tighten
 from footwork.training.kept_edges import KeptEdges
 from footwork.training.path_cost import UNIT
-from footwork.training.raised_budgets import allow
+from footwork.training.raised_budgets import allow, join, no_raising
+
+# a search that leaves more of the graph than this has budgets so loose that bounding all anew costs less
+_LOOSE = 1 / 16
 
 
 class Found(NamedTuple):
@@ -53,8 +57,9 @@ class SearchStream:
         self._paths = no_paths(count, edges.far.dtype.type)
         self._queue = bucket_queue(count, self._dearest)
         self._seen, self._before, self._changed, self._new = (np.full(count, -1, dtype=np.int32) for _ in range(4))
-        self._waiting, self._stands = np.empty(count + 1, dtype=np.int32), np.zeros(count, dtype=np.uint8)
-        self._done, self._touched = 0, 0
+        self._bounding, self._worth = bucket_queue(count, self._dearest), np.empty_like(self._paths.label)
+        self._raising, self._own = no_raising(count), np.empty(0, dtype=np.int32)
+        self._done, self._looked = 0, 0
 
     @property
     def left(self) -> int:
@@ -71,28 +76,56 @@ class SearchStream:
             OverflowError: where costs of paths may grow too large for their type.
         """
         origin, shift = self._sources[self._done]
-        looked = self._follow(others) if shift else 0
-        self._forget(shift)
-        paths, edges = self._paths, self._edges
-        self._touched, left, buckets, more = search(origin, edges, paths, self._queue, shift)
-        if (buckets + 1) * UNIT + self._dearest >= paths.unknown[0]:
+        self._looked = 0
+        seeds = self._follow(origin, others) if shift and self._prune else self._forget()
+        paths = self._paths
+        # where nothing is followed labels count from the origin
+        paths.label[origin], paths.parent[origin] = -shift if self._prune else 0, origin
+        left, turn = self._search(np.unique(np.append(seeds, np.int32(origin))))
+        if max(shift, (turn + 1) * UNIT + self._dearest) >= paths.unknown[0]:
             raise OverflowError
         found = self._take(origin)
-        looked += more + (tighten(edges, paths, left, shift) if self._prune else 0)
-        self._done += 1
-        return found._replace(looked=looked)
+        if self._prune:
+            self._looked += tighten(self._edges, paths, left)
+        self._done, self._own = self._done + 1, found.new
+        return found._replace(looked=self._looked)
 
-    def _follow(self, others: list[NDArray[np.int32]]) -> int:
-        shift, looked = self._sources[self._done - 1][1], 0
+    def _forget(self) -> NDArray[np.int32]:
+        forget(self._paths, self._useful)
+        return np.empty(0, dtype=np.int32)
+
+    def _follow(self, origin: int, others: list[NDArray[np.int32]]) -> NDArray[np.int32]:
+        """Take up what has been kept since the last search: the nodes whose edges may lower labels."""
+        paths, edges = self._paths, self._edges
+        paths.parent[self._sources[self._done - 1][0]] = origin
+        seeds = [self._own, *others]
+        self._looked += sum(join(nodes, edges, paths) for nodes in seeds)
         for nodes in others:
-            looked += allow(nodes, self._edges, self._paths, shift, self._waiting, self._stands)
-            self._paths.label[nodes] = self._paths.unknown
-        return looked
+            raised, looked = allow(nodes, edges, paths, self._raising)
+            seeds.append(self._raising.nodes[:raised].copy())
+            self._looked += looked
+        found = np.concatenate(seeds)
+        return found[paths.label[found] < paths.unknown]
 
-    def _forget(self, shift: int) -> None:
-        self._paths.label[self._paths.touched[: self._touched]] = self._paths.unknown
-        if not shift:
-            forget(self._paths, self._useful)
+    def _search(self, seeds: NDArray[np.int32]) -> tuple[int, int]:
+        """Lower labels from seeds on; how many nodes were left, and the last bucket."""
+        paths, edges = self._paths, self._edges
+        own = edges.kept[seeds] == 1
+        first, due = _by(paths.label, seeds[own])
+        among_kept = spread(first, due, edges, paths, self._queue)
+        self._looked += among_kept.looked
+        leaving = np.union1d(paths.left[: among_kept.left], seeds[~own])
+        leaving, due = _by(paths.label, leaving[paths.label[leaving] <= paths.budget[leaving]])
+        if not len(leaving):
+            return 0, among_kept.turn
+        loose = int(_LOOSE * len(paths.label)) + 1 if self._prune else len(paths.label)
+        done = search(leaving, due, edges, paths, self._queue, BEGUN, loose)
+        if self._prune and done.left == loose:
+            kept, worth = _by(-paths.label, np.flatnonzero(edges.kept).astype(np.int32))
+            self._looked += bound(kept, worth, edges, paths, self._bounding, self._worth)
+            done = search(leaving, due, edges, paths, self._queue, done, len(paths.label))
+        self._looked += done.looked
+        return done.left, max(among_kept.turn, done.turn)
 
     def _take(self, origin: int) -> Found:
         changes, count = take(
@@ -108,3 +141,10 @@ class SearchStream:
         new, changed = self._new[:count], self._changed[:changes].copy()
         # every edge costs something, so that labels rise along paths
         return Found(new[np.argsort(self._paths.label[new], kind="stable")], self._before[changed], changed, 0)
+
+
+def _by(label: NDArray, nodes: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray]:
+    """Nodes by label, and their labels."""
+    due = label[nodes]
+    order = np.argsort(due, kind="stable")
+    return nodes[order], due[order]
