@@ -3,6 +3,7 @@
 import statistics
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
@@ -32,8 +33,10 @@ def matrix_product_peak(size: int = 1024, repeats: int = 7) -> float:
     return 2.0 * size**3 / min(seconds_of(lambda: np.matmul(a, b, out=out), repeats))
 
 
-def memory_bandwidth(megabytes: int = 256, repeats: int = 5) -> float:
-    """The best rate at which one thread reads and writes arrays larger than the caches, bytes/s."""
-    source = np.ones(megabytes << 17)
+def memory_bandwidth(megabytes: int = 256, repeats: int = 5, threads: int = 1) -> float:
+    """The best rate at which so many threads read and write arrays larger than the caches, bytes/s."""
+    source = np.ones((threads, megabytes << 17))
     target = np.empty_like(source)
-    return 2.0 * source.nbytes / min(seconds_of(lambda: np.copyto(target, source), repeats))
+    with ThreadPoolExecutor(threads) as pool:
+        seconds = seconds_of(lambda: list(pool.map(np.copyto, target, source)), repeats)
+    return 2.0 * source.nbytes / min(seconds)

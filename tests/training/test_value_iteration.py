@@ -99,6 +99,16 @@ def test_policy_iteration_comes_to_what_plain_sweeps_come_to():
     assert quick.improvements < plain.sweeps / 5
 
 
+def test_what_all_values_lack_alike_is_added_at_once():
+    """A walk that goes straight and stands by turns is worth about the same wherever it begins."""
+    task = SteeringTask(behaviours=("walk",), heading_bins=4, discount=0.999)
+    graph = replace(ring_graph(2, behaviours=("walk",)), displacement=np.array([[0, 0, 1.6], [0, 0, 1.5]], np.float32))
+    table = solve(graph, task, tolerance=1e-1)
+    assert table.converged
+    assert table.sweeps < 300
+    assert np.abs(table.values - ExactSteering(graph, task).solved()).max() < table.error_bound
+
+
 def test_float32_sweeps_come_to_what_float64_ones_do():
     graph = random_steering_graph(6, nodes=30, degree=3)
     actions, onward = actions_of(graph, TASK), onward_edges(graph)

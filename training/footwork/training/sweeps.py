@@ -114,7 +114,9 @@ def improve(
                 if shown[to] != wanted:
                     rewards[at] = terms[action, _ELSE]
                 elif headed[wanted]:
-                    rewards[at] = _earned_at(qualities, bin_, terms, action)
+                    row, between, base, gain = _rows_between(terms, action)
+                    first, second = qualities[row, bin_], qualities[row + 1, bin_]
+                    rewards[at] = base + gain * (first + between * (second - first))
                 else:
                     rewards[at] = terms[action, _MATCHED]
                 at += 1
@@ -156,23 +158,23 @@ def _earn(
     """Write the reward of an action that comes to a frame of behaviour ``matched`` under each command."""
     earned[:] = terms[action, _ELSE]
     if headed:
-        at = matched
-        for h in range(len(earned) // behaviours):
-            earned[at] = _earned_at(qualities, shift + h, terms, action)
-            at += behaviours
+        row, between, base, gain = _rows_between(terms, action)
+        headings = len(earned) // behaviours
+        first, second = qualities[row, shift : shift + headings], qualities[row + 1, shift : shift + headings]
+        into = earned[matched::behaviours]
+        for h in range(headings):
+            into[h] = base + gain * (first[h] + between * (second[h] - first[h]))
     elif matched >= 0:
         earned[matched::behaviours] = terms[action, _MATCHED]
 
 
 @numba.njit(cache=True, nogil=True)
-def _earned_at(qualities: NDArray, bin_: int, terms: NDArray, action: int) -> float:
-    """The reward of an action that comes to a frame of the behaviour asked for, beyond a heading bin."""
+def _rows_between(terms: NDArray, action: int) -> tuple[int, float, float, float]:
+    """The row of ``qualities`` before where an action leads, how far it leads on, and its reward base + gain qc."""
     fraction = terms[action, _SHARE] * terms.dtype.type(_FRACTIONS)
     row = min(int(fraction), _FRACTIONS - 1)
-    first, second = qualities[row, bin_], qualities[row + 1, bin_]
-    quality = first + (fraction - terms.dtype.type(row)) * (second - first)
     base = terms[action, _ELSE]
-    return base + (terms[action, _MATCHED] - base) * quality
+    return row, fraction - terms.dtype.type(row), base, terms[action, _MATCHED] - base
 
 
 @numba.njit(cache=True, nogil=True)
@@ -231,15 +233,17 @@ def evaluate(
     nodes, length, behaviours = copies.shape[1:]
     states, stride, flat = (length - 1) * behaviours, length * behaviours, copies.reshape(-1)
     row = np.empty(states, copies.dtype)
-    last = end * stride if in_place else 0
+    last, next_bin = end * stride if in_place else 0, np.uint32(behaviours)
+    from_old, from_new = np.uint32(old * nodes * stride), np.uint32(new * nodes * stride)
     for node in range(end - 1, begin - 1, -1):
-        known, at = (node + 1) * stride, node * states
+        known, states_here = (node + 1) * stride, slice(node * states, (node + 1) * states)
+        to, share, reward = place[states_here], shares[states_here], rewards[states_here]
         for state in range(states):
-            to = np.int64(place[at])
-            to += nodes * stride * (new if known <= to < last else old)
-            here, after = flat[to], flat[to + behaviours]
-            row[state] = rewards[at] + discount * (here + shares[at] * (after - here))
-            at += 1
+            # unsigned: compiled code need not look whether an index counts from the end
+            at = np.uint32(to[state])
+            at += from_new if known <= at < last else from_old
+            here, after = flat[at], flat[at + next_bin]
+            row[state] = reward[state] + discount * (here + share[state] * (after - here))
         _write_row(row, change, persistent, copies, new, node)
 
 

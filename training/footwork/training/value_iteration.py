@@ -26,7 +26,7 @@ from footwork.training.sweeper import Sweeper, spans_of
 
 TOLERANCE = 1e-3
 MAX_SWEEPS = 5000
-EVALUATIONS = 30
+EVALUATIONS = 20
 _ROUNDINGS = 16.0
 
 
