@@ -1,9 +1,10 @@
 """Foot locks: a foot that stands stays where it was shown when it came to stand, while the body goes on over it.
 
-While the graph has a foot in contact at both ends of a tick, the ball of the foot keeps its place on the ground and the
-foot its yaw; heights, pitch and roll are the motion's. When contact ends, what the lock had added dies away like an
-offset of inertialisation (conventions.md 10), and so it does when a lock has come to be too far from its motion: that
-one is taken anew once it has come near. Locks change at ticks only, so what is shown between changes nothing.
+While the graph has a foot in contact at both ends of a tick, and it is shown low, the ball of the foot keeps its place
+on the ground and the foot its yaw; heights, pitch and roll are the motion's. When contact ends, what the lock had added
+dies away like an offset of inertialisation (conventions.md 10). A lock that has come to be too far from its motion ends
+in a step: the foot is lifted, what was added dies away, and it is locked anew where it comes down; one foot steps at a
+time. Locks change at ticks only, so what is shown between changes nothing.
 
 An offset is (x, z, yaw): how far the ball shown is from the motion's, in the world, and how far the foot is turned.
 """
@@ -25,11 +26,13 @@ from footwork.runtime.rotation_kernels import along, column3, column4, exp, mult
 
 RELEASE_HALFLIFE = 0.05
 """Half-life of what a lock leaves when it ends, s: a twelfth is left after 0.15 s."""
-FURTHEST, MOST_TURNED = 0.3, math.radians(60.0)
-"""A lock further than this from its motion, metres and radians, is released."""
-_NEAR = 0.5
-"""A share of those, within which a standing foot is locked (again)."""
-_LEAST_COSINE = math.cos(MOST_TURNED)
+FURTHEST, MOST_TURNED = 0.25, math.radians(45.0)
+"""A lock further than this from its motion, metres and radians, ends in a step."""
+STEP_TICKS = 5
+"""How long such a step takes."""
+LOW = 0.04
+"""A foot is locked once its ball is no higher than this above the floor, metres."""
+_FAR_TOO_FAR = 2.0  # times those limits: a foot that does not wait for the other's step
 _UPRIGHT = 1e-6  # metres from ankle to ball over the ground
 _SETTLED = 1e-6  # metres and radians: what is left is dropped
 
@@ -73,7 +76,7 @@ def _pelvis_at_tick(node, place, root_position, offset, root, weights):
 
 @numba.njit(cache=True, nogil=True)
 def _foot_at_tick(pelvis, leg, bones, node, offset, weights):
-    """A foot as its motion with inertialisation has it at the node's own moment: ``sole_of`` its ankle and ball.
+    """A foot as its motion with inertialisation has it at the node's own moment: its ball's height, and ``sole_of`` it.
 
     Args:
         pelvis: place and rotation of joint 0 in the world.
@@ -87,7 +90,8 @@ def _foot_at_tick(pelvis, leg, bones, node, offset, weights):
     for k in range(3):
         at = plus(at, rotate(turn, bones[leg[k]]))
         turn = multiply(turn, _shown_turn(node, offset, leg[k], weights))
-    return sole_of(at, plus(at, rotate(turn, bones[leg[3]])))
+    ball = plus(at, rotate(turn, bones[leg[3]]))
+    return ball[1], sole_of(at, ball)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -114,9 +118,11 @@ def update_locks(
     roots: NDArray,
     legs: NDArray,
     bones: NDArray,
+    floor: float,
     locked: NDArray,
     anchor: NDArray,
     slip: NDArray,
+    stride: NDArray,
 ) -> None:
     """What becomes of the locks of all active characters as one tick ends and the next begins, in place.
 
@@ -133,9 +139,11 @@ def update_locks(
         roots: offset and its velocity of the root, as the tick began.  # (C, 2, 3)
         legs: ``legs_of`` the body.  # (feet, 4)
         bones: its rest offsets.  # (J, 3)
+        floor: height of the lowest balls, metres.
         locked: which feet stay where they are.  # (C, feet)
         anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (C, feet, 4)
         slip: of feet not locked, offset and its velocity, as the tick begins.  # (C, feet, 2, 3)
+        stride: how many ticks are left of each foot's step.  # (C, feet)
     """
     a, b, _, _ = decay_weights(TICK, halflife)
     dying = decay_weights(TICK, RELEASE_HALFLIFE)
@@ -147,10 +155,17 @@ def update_locks(
         for foot in range(legs.shape[0]):
             if not locked[who, foot]:
                 _die_away(slip[who, foot], dying)
+            stride[who, foot] = max(stride[who, foot] - 1, 0)
             stays = contacts[here, foot] and contacts[target[who], foot]
-            if stays or locked[who, foot]:
-                sole = _foot_at_tick(pelvis, legs[foot], bones, nodes[here], offsets[who], (a, b))
-                locked[who, foot] = _renewed(stays, locked[who, foot], sole, anchor[who, foot], slip[who, foot])
+            if locked[who, foot] or (stays and stride[who, foot] == 0):
+                height, sole = _foot_at_tick(pelvis, legs[foot], bones, nodes[here], offsets[who], (a, b))
+                if locked[who, foot]:
+                    _leave(sole, anchor[who, foot], slip[who, foot])
+                    locked[who, foot] = stays
+                elif height <= floor + LOW:
+                    _settle(sole, anchor[who, foot], slip[who, foot])
+                    locked[who, foot] = True
+        _take_step(locked[who], slip[who], stride[who])
 
 
 @numba.njit(cache=True, nogil=True)
@@ -167,23 +182,34 @@ def _die_away(slip, weights):
 
 
 @numba.njit(cache=True, nogil=True)
-def _renewed(stays, is_locked, sole, anchor, slip):
-    """Whether a foot is locked in the tick to come; its anchor is set where a lock begins, its slip where one ends."""
-    if is_locked:
-        x, z = anchor[0] - sole[0], anchor[1] - sole[1]
-        sine, cosine = between_yaws(anchor[2], anchor[3], sole[2], sole[3])
-        if stays and x * x + z * z <= FURTHEST**2 and cosine >= _LEAST_COSINE:
-            return True
-        slip[0, 0], slip[0, 1], slip[0, 2] = x, z, math.atan2(sine, cosine)
-        slip[1] = 0.0
-        return False
-    x, z, yaw = slip[0]
-    if not stays or x * x + z * z > (_NEAR * FURTHEST) ** 2 or abs(yaw) > _NEAR * MOST_TURNED:
-        return False
-    sine, cosine = math.sin(yaw), math.cos(yaw)
-    anchor[0], anchor[1] = sole[0] + x, sole[1] + z
+def _leave(sole, anchor, slip):
+    """What a foot's offset is, in place, if its lock ends here."""
+    sine, cosine = between_yaws(anchor[2], anchor[3], sole[2], sole[3])
+    slip[0, 0], slip[0, 1], slip[0, 2] = anchor[0] - sole[0], anchor[1] - sole[1], math.atan2(sine, cosine)
+    slip[1] = 0.0
+
+
+@numba.njit(cache=True, nogil=True)
+def _settle(sole, anchor, slip):
+    """Anchor a foot where it is shown, in place."""
+    sine, cosine = math.sin(slip[0, 2]), math.cos(slip[0, 2])
+    anchor[0], anchor[1] = sole[0] + slip[0, 0], sole[1] + slip[0, 1]
     anchor[2], anchor[3] = sole[2] * cosine + sole[3] * sine, sole[3] * cosine - sole[2] * sine
-    return True
+    slip[:] = 0.0
+
+
+@numba.njit(cache=True, nogil=True)
+def _take_step(locked, slip, stride):
+    """Let the locked foot that is furthest from its motion step, if it is too far, in place."""
+    worst, furthest, stepping = -1, 1.0, False
+    for foot in range(locked.shape[0]):
+        stepping |= stride[foot] > 0
+        away = math.sqrt(slip[foot, 0, 0] ** 2 + slip[foot, 0, 1] ** 2) / FURTHEST
+        error = max(away, abs(slip[foot, 0, 2]) / MOST_TURNED)
+        if locked[foot] and error > furthest:
+            worst, furthest = foot, error
+    if worst >= 0 and (not stepping or furthest > _FAR_TOO_FAR):
+        locked[worst], stride[worst] = False, STEP_TICKS
 
 
 @numba.njit(cache=True, nogil=True)

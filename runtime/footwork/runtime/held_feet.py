@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.tick import TICK
-from footwork.runtime.foot_lock import RELEASE_HALFLIFE, between_yaws, sole_of
+from footwork.runtime.foot_lock import RELEASE_HALFLIFE, STEP_TICKS, between_yaws, sole_of
 from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.leg_kernels import bent_knee, conjugate, dot, less, plus
 from footwork.runtime.rotation_kernels import multiply, planar, rotate, turned
@@ -19,6 +19,8 @@ from footwork.runtime.rotation_kernels import multiply, planar, rotate, turned
 _STRAIGHTEST = 0.995
 """The share of its length that a held leg may span, or what its motion spans where that is more."""
 _FULLY = 0.9995  # the share that any leg may span
+STEP_HEIGHT = 0.11
+"""How far a foot is lifted half-way through a step, metres: above ``foot_lock.LOW`` but for its first and last tick."""
 DEEPEST = 0.06
 """How far the hips come down at most, metres."""
 
@@ -34,6 +36,7 @@ def hold_feet(
     locked: NDArray,
     anchor: NDArray,
     slip: NDArray,
+    stride: NDArray,
     shown_root: NDArray,
     shown_rotations: NDArray,
 ) -> None:
@@ -49,6 +52,7 @@ def hold_feet(
         locked: which feet stay where they are.  # (C, feet)
         anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (C, feet, 4)
         slip: of feet not locked, offset and its velocity, as the tick begins.  # (C, feet, 2, 3)
+        stride: how many ticks are left of each foot's step, as the tick begins.  # (C, feet)
         shown_root: joint 0 in the world, m.  # (C, 3) float32
         shown_rotations: local rotations xyzw, joint 0 in the world.  # (C, J, 4) float32
     """
@@ -60,7 +64,8 @@ def hold_feet(
         root, rotations, drop = shown_root[who], shown_rotations[who], 0.0
         for foot in range(legs.shape[0]):
             pose = _leg_pose(legs[foot], bones, root, rotations)
-            change = _correction(pose, locked[who, foot], anchor[who, foot], slip[who, foot], a, b, floor)
+            up = max(floor - pose[3][1], 0.0) + _lift(stride[who, foot], fraction)
+            change = _correction(pose, locked[who, foot], anchor[who, foot], slip[who, foot], a, b, up)
             x, z, sine, cosine, up = change
             moved[foot] = x != 0.0 or z != 0.0 or sine != 0.0 or up != 0.0
             if moved[foot]:
@@ -105,12 +110,19 @@ def _leg_pose(leg, bones, root, rotations):
 
 
 @numba.njit(cache=True, nogil=True)
-def _correction(pose, is_locked, anchor, slip, a, b, floor):
+def _lift(ticks_left, fraction):
+    """How far a foot is lifted in its step."""
+    if ticks_left == 0:
+        return 0.0
+    done = (STEP_TICKS - ticks_left + fraction) / STEP_TICKS
+    return 16.0 * STEP_HEIGHT * (done * (1.0 - done)) ** 2
+
+
+@numba.njit(cache=True, nogil=True)
+def _correction(pose, is_locked, anchor, slip, a, b, up):
     """How far the ball shall move (x, z), the foot turn (sine, cosine), and the ball rise."""
-    ball = pose[3]
-    up = max(floor - ball[1], 0.0)
     if is_locked:
-        x, z, sine, cosine = sole_of(pose[2], ball)
+        x, z, sine, cosine = sole_of(pose[2], pose[3])
         sine, cosine = between_yaws(anchor[2], anchor[3], sine, cosine)
         return anchor[0] - x, anchor[1] - z, sine, cosine, up
     yaw = a * slip[0, 2] + b * slip[1, 2]

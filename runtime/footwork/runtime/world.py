@@ -98,10 +98,10 @@ class World:
         self._legs = legs_of(graph.skeleton)
         self._spans = np.linalg.norm(graph.skeleton.offsets[self._legs[:, 1:3]], axis=-1)
         self._floor = lowest_balls(graph, self._legs)
-        feet = len(self._legs)
-        self._locked = np.zeros((capacity, feet), dtype=np.bool_)
-        self._anchor = np.zeros((capacity, feet, 4))
-        self._slip = np.zeros((capacity, feet, 2, 3))
+        self._locked = np.zeros((capacity, len(self._legs)), dtype=np.bool_)
+        self._anchor = np.zeros((*self._locked.shape, 4))
+        self._slip = np.zeros((*self._locked.shape, 2, 3))
+        self._stride = np.zeros(self._locked.shape, dtype=np.int32)
         self._motion = (graph.root_position, graph.root_velocity, node_rows(graph))
 
     def spawn(self, node: int, x: float, z: float, yaw: float) -> int:
@@ -122,7 +122,7 @@ class World:
         self.edge[slot], self.natural[slot] = LEAP, True
         self.place[slot] = x, z, within_half_turn(yaw)
         self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = self._glide[slot] = 0
-        self._locked[slot] = self._slip[slot] = 0
+        self._locked[slot] = self._slip[slot] = self._stride[slot] = 0
         return slot
 
     def remove(self, slot: int) -> None:
@@ -195,7 +195,6 @@ class World:
 
     def _renew_locks(self, moves: Moves) -> None:
         """Keep, take and release foot locks as the tick ends."""
-        position, _, nodes = self._motion
         update_locks(
             self.active,
             self.node,
@@ -203,15 +202,17 @@ class World:
             self.place,
             self.graph.contacts,
             self.halflife,
-            position,
-            nodes,
+            self._motion[0],
+            self._motion[2],
             self._offsets,
             self._roots,
             self._legs,
             self.graph.skeleton.offsets,
+            self._floor,
             self._locked,
             self._anchor,
             self._slip,
+            self._stride,
         )
 
     def _carry_over(self) -> None:
@@ -272,6 +273,7 @@ class World:
             self._locked,
             self._anchor,
             self._slip,
+            self._stride,
             self._shown_root,
             self._shown_rotations,
         )
