@@ -1,7 +1,7 @@
 import numpy as np
 
 from footwork.controllers.command import NONE, Command
-from footwork.controllers.orders import LATCH_TICKS, Orders
+from footwork.controllers.orders import HOLD_TICKS, LATCH_TICKS, Orders
 
 STOP, WALK, RUN, JUMP, DUCK = range(5)
 
@@ -16,14 +16,20 @@ def walking() -> Orders:
     return orders
 
 
-def test_a_one_shot_is_asked_for_until_it_is_entered():
+def test_a_one_shot_is_asked_for_until_it_has_been_shown_for_a_third_of_a_second():
     orders = walking()
     orders.give(0, Command(0.5, WALK, JUMP), shown=WALK)
     orders.give(0, Command(0.7, RUN), shown=WALK)
     assert [asked(orders, WALK) for _ in range(5)] == [JUMP] * 5
-    assert asked(orders, JUMP) == RUN
+    assert [asked(orders, JUMP) for _ in range(HOLD_TICKS + 3)] == [JUMP] * HOLD_TICKS + [RUN] * 3
     assert asked(orders, WALK) == RUN
     assert orders.heading[0] == 0.7
+
+
+def test_a_one_shot_that_was_left_is_over():
+    orders = walking()
+    orders.give(0, Command(0.5, WALK, JUMP), shown=WALK)
+    assert [asked(orders, shown) for shown in (WALK, JUMP, WALK, JUMP)] == [JUMP, JUMP, WALK, WALK]
 
 
 def test_a_one_shot_waits_for_a_second_at_most():
@@ -42,7 +48,7 @@ def test_a_key_that_stays_down_asks_once():
     orders = walking()
     for _ in range(3):
         orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
-    assert asked(orders, JUMP) == WALK
+    assert [asked(orders, JUMP) for _ in range(HOLD_TICKS + 1)][-1] == WALK
     orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
     assert asked(orders, WALK) == WALK
     orders.give(0, Command(0.0, WALK), shown=WALK)
@@ -55,7 +61,7 @@ def test_the_last_one_shot_asked_for_counts():
     orders.give(0, Command(0.0, WALK, JUMP), shown=WALK)
     orders.give(0, Command(0.0, NONE, DUCK), shown=WALK)
     assert asked(orders, WALK) == DUCK
-    assert asked(orders, DUCK) == WALK
+    assert [asked(orders, DUCK) for _ in range(HOLD_TICKS + 1)] == [DUCK] * HOLD_TICKS + [WALK]
 
 
 def test_characters_wait_apart_and_a_new_one_begins_afresh():

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from footwork.motion.graph import MotionGraph
 from footwork.motion.graph_windows import NONE, GraphWindows, composed
 from footwork.motion.metric import UNIT, align_windows
+from footwork.motion.task import ONE_SHOT
 from footwork.motion.window import RADIUS, window_weights
 from footwork.training.standard_graph import moved, relative
 from footwork.training.transitions import MIN_GAP
@@ -30,7 +31,7 @@ def bridged(graph: MotionGraph, ways: int, sigma: float, tell: Callable[[float],
 
     They lead to the frame after the one that is least unlike by the uniform metric: of the captured frames of a
     behaviour, the lowest costs among their neighbours in the capture. Their cost is that s, whichever metric built
-    the graph.
+    the graph. A one-shot behaviour, such as a jump, is neither entered nor left in the air.
 
     Args:
         graph: a graph that can be walked without end.
@@ -52,12 +53,18 @@ def _candidates(graph: MotionGraph, windows: GraphWindows) -> NDArray[np.intp]:
     after = windows.after
     here = np.where(after == NONE, 0, after)
     behaviour, at = graph.behaviour[here], here.copy()
-    stays = (after != NONE) & graph.original & (behaviour >= 0)
+    stays = (after != NONE) & graph.original & (behaviour >= 0) & ~_aloft(graph)[here]
     for _ in range(STAY - 1):
         stays &= (after[at] != NONE) & (graph.behaviour[after[at]] == behaviour)
         at = np.where(stays, after[at], 0)
     found = np.flatnonzero(stays)
     return found[np.lexsort((graph.frame[found], graph.clip[found]))]
+
+
+def _aloft(graph: MotionGraph) -> NDArray[np.bool_]:
+    """Which frames are in the air within a one-shot behaviour.  # (N,)"""
+    once = [index for index, name in enumerate(graph.behaviours) if name in ONE_SHOT]
+    return np.isin(graph.behaviour, once) & ~graph.contacts.any(axis=1)
 
 
 def _chosen(
@@ -66,10 +73,11 @@ def _chosen(
     """Source and target of the bridges."""
     there = windows.after[similar]
     adjoining = np.append(there[:-1] == similar[1:], False)
+    grounded = np.flatnonzero(~_aloft(graph))
     ground, height, energy = _factors(windows, similar)
     sources, targets = [], []
-    for first in range(0, graph.node_count, _ROWS):
-        nodes = np.arange(first, min(first + _ROWS, graph.node_count))
+    for first in range(0, len(grounded), _ROWS):
+        nodes = grounded[first : first + _ROWS]
         a, b, e = _factors(windows, nodes)
         costs = e[:, None] + energy - 2.0 * (b @ height.T) - 2.0 * np.abs(a @ ground.conj().T)
         chosen = np.full((len(nodes), len(graph.behaviours), ways), NONE, dtype=np.int64)
@@ -79,7 +87,7 @@ def _chosen(
         row, _, _ = found = np.nonzero(chosen != NONE)
         sources.append(nodes[row])
         targets.append(there[chosen[found]])
-        tell((first + len(nodes)) / graph.node_count)
+        tell((first + len(nodes)) / len(grounded))
     return np.concatenate(sources), np.concatenate(targets)
 
 
