@@ -64,13 +64,16 @@ def hold_feet(
         root, rotations, drop = shown_root[who], shown_rotations[who], 0.0
         for foot in range(legs.shape[0]):
             pose = _leg_pose(legs[foot], bones, root, rotations)
-            up = max(floor - pose[3][1], 0.0) + _lift(stride[who, foot], fraction)
+            lift = _lift(stride[who, foot], fraction)
+            up = max(floor - pose[3][1], 0.0) + lift
             change = _correction(pose, locked[who, foot], anchor[who, foot], slip[who, foot], a, b, up)
             x, z, sine, cosine, up = change
             moved[foot] = x != 0.0 or z != 0.0 or sine != 0.0 or up != 0.0
             if moved[foot]:
                 ankle = _ankle_goal(pose, change)
-                drop = max(drop, _needed_drop(pose, ankle, _longest(spans[foot], pose)))
+                # as if it were not lifted: the hips rise as the foot comes nearer, not at once
+                level = ankle[0], ankle[1] - lift, ankle[2]
+                drop = max(drop, _needed_drop(pose, level, _longest(spans[foot], pose)))
                 goals[foot] = ankle[0], ankle[1], ankle[2], sine, cosine
             else:
                 goals[foot] = pose[2][0], pose[2][1], pose[2][2], 0.0, 1.0
