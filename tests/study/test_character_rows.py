@@ -36,6 +36,7 @@ def score_like(total: float, slide: float = 5.0, decision: float = 1.0) -> dict:
         "source_foot_slide_cm_s": 4.0,
         "batch": {"decision_us": {"mean": decision, "p99": decision}},
         "intervals": {"total": [total - 0.1, total + 0.1]},
+        "traces": [{"ticks": 10, "control": total, "transition": 1.0}],
         "frames": 10,
     }
 

@@ -3,8 +3,8 @@ import pytest
 
 from footwork.study.bootstrap import Estimate
 from footwork.study.foot_slide import Slide
-from footwork.study.intervals import intervals, total, total_gain
-from footwork.study.measures import Followed
+from footwork.study.intervals import intervals, scored_gain, total, total_gain
+from footwork.study.measures import Followed, quality
 
 
 def walker(good: int, ticks: int = 10, cost: float = 0.0) -> Followed:
@@ -43,6 +43,13 @@ def test_what_two_controllers_have_in_common_does_not_widen_the_interval_of_thei
     assert bounds(gain) == pytest.approx([0.1, 0.1])
     apart = np.ptp(bounds(total(one)))
     assert apart > 0.2
+
+
+def test_the_difference_is_the_same_from_reports_as_from_ticks():
+    one, other = [walker(3, 10), walker(9, 20, 0.3)], [walker(2, 10, 0.1), walker(9, 20)]
+    reports = [{"traces": [{"ticks": len(part.heading)} | quality(part) for part in parts]} for parts in (one, other)]
+    found, known = scored_gain(reports[0], reports[1]), total_gain(one, other)
+    assert [found.value, *bounds(found)] == pytest.approx([known.value, *bounds(known)])
 
 
 def test_every_figure_has_its_interval_and_one_trace_has_none():

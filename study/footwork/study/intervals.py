@@ -1,6 +1,7 @@
 """How sure scores are: traces are drawn again, each whole, since ticks of one player are alike (bootstrap)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +46,26 @@ def total_gain(parts: Sequence[Followed], others: Sequence[Followed], seed: int 
     return estimate(gain, _totals(parts, drawn) - _totals(others, drawn))
 
 
+def scored_gain(one: Mapping[str, Any], other: Mapping[str, Any], seed: int = 0) -> Estimate:
+    """``total_gain`` of two reports of ``scoring.score`` on the same traces."""
+    sums = [
+        np.array(
+            [[part["ticks"], part["ticks"] * part["control"], part["ticks"] * part["transition"]] for part in parts]
+        )
+        for parts in (one["traces"], other["traces"])
+    ]
+    once, drawn = np.ones((1, len(sums[0]))), draws(len(sums[0]), seed)
+    gain = float((_products(sums[0], once) - _products(sums[1], once))[0])
+    return estimate(gain, _products(sums[0], drawn) - _products(sums[1], drawn))
+
+
 def _totals(parts: Sequence[Followed], drawn: NDArray) -> NDArray[np.float64]:
     """Total of each draw of traces.  # (n, traces) -> (n,)"""
     sums = np.array([[len(part.heading), part.control.sum(), part.transition.sum()] for part in parts])
+    return _products(sums, drawn)
+
+
+def _products(sums: NDArray, drawn: NDArray) -> NDArray[np.float64]:
+    """Total of each draw, from ticks and sums of qc and qt of each trace.  # (traces, 3), (n, traces) -> (n,)"""
     ticks, control, transition = (drawn @ sums).T
     return control * transition / ticks**2

@@ -10,6 +10,7 @@ from footwork.motion.trace import SOURCE_HZ
 from footwork.study.contender import Contender
 from footwork.study.foresight import Foresight
 from footwork.study.greedy import greedy
+from footwork.study.intervals import scored_gain
 from footwork.study.motion_matching.forms import FORMS, motion_matching
 from footwork.study.oracle import Oracle
 from footwork.study.replay import Stage, replay
@@ -135,7 +136,10 @@ def _switches(bench: Workbench, bundle: Bundle) -> Scores:
 def _judgements(graphs: dict[str, Any], best: str, others: dict[str, Any]) -> list[Judgement]:
     ours, strong = graphs[best], others["motion matching, strong"]
     reached = f"{best}: {ours['total']:.3f} ({interval_words(ours)})."
-    apart = f"{ours['total']:.3f} ({interval_words(ours)}) against {strong['total']:.3f} ({interval_words(strong)})."
+    apart = (
+        f"{ours['total']:.3f} ({interval_words(ours)}) against {strong['total']:.3f} ({interval_words(strong)}): "
+        f"{scored_gain(ours, strong).words(3)} more on the same players."
+    )
     slide, source = ours["foot_slide_cm_s"], ours["source_foot_slide_cm_s"]
     times = [one["batch"]["decision_us"]["mean"] for one in (ours, strong)]
     return [
