@@ -64,13 +64,16 @@ def shares_table(caption: str, totals: Mapping[str, float]) -> Table:
 
 
 def control_chart(series: Mapping[str, tuple[str, Sequence[Mapping[str, Any]]]]) -> Figure:
-    """Control against Transition: each series by name, with its colour and its scores, joined by a line."""
+    """Control against Transition: each series by name, with its colour and its scores, joined by a line.
+
+    Those of plain graphs are dashed.
+    """
     lines = [
-        Series(name, [one["transition"] for one in scores], [one["control"] for one in scores], colour)
+        Series(name, [one["transition"] for one in scores], [one["control"] for one in scores], colour, "plain" in name)
         for name, (colour, scores) in series.items()
         if scores
     ]
-    axes = Axis("Transition", limits=(0.5, 1.0)), Axis("Control", limits=(0.0, 1.0))
+    axes = Axis("Transition", limits=(None, 1.0)), Axis("Control", limits=(0.0, 1.0))
     return Figure(
         caption="Control against smoothness, each character a point; lines join the thresholds of a kind of graph.",
         alt="Control against Transition of every character",

@@ -176,9 +176,12 @@ def _well_connected(graphs: dict[str, Any]) -> Judgement:
 
 def _chart(graphs: dict[str, Any], others: dict[str, Any]) -> Figure:
     series = {
-        f"{kind}, {words}": (colour, [one for name, one in graphs.items() if name.startswith(kind) and words in name])
+        f"{kind}, {words}": (
+            colour,
+            [one for name, one in graphs.items() if name.startswith(kind) and name.endswith(words)],
+        )
         for kind, colour in ((STANDARD, "standard"), (WELL_CONNECTED, "well"))
-        for words in ("plain", "mirrored, warped")
+        for words in ("plain", "warped", "bridged")
     }
     marks = {"motion matching, reference": "faint", "motion matching, strong": "rival"}
     series |= {name: (marks.get(name, "ink"), [one]) for name, one in others.items()}
