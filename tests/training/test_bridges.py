@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,8 +17,7 @@ FRAMES = 40
 
 
 def clip(seed: int, labels: list[str]):
-    bare = wandering_clip(seed, FRAMES)
-    return type(bare)(bare.name, bare.skeleton, bare.fps, bare.root_position, bare.rotations, labels=np.array(labels))
+    return replace(wandering_clip(seed, FRAMES), labels=np.array(labels))
 
 
 CLIPS = [
@@ -88,3 +89,22 @@ def test_edges_that_are_there_already_stay_as_they_are():
 def test_a_number_of_bridges_out_of_range_is_refused(bridges):
     with pytest.raises(Exception, match=r"--bridges: .* expected 0 to 64"):
         GraphOptions(bridges=bridges)
+
+
+def jumping(aloft: slice):
+    """A clip that jumps all along, with both feet off the ground in some frames."""
+    bare, contacts = wandering_clip(5, FRAMES), np.ones((FRAMES, 2), bool)
+    contacts[aloft] = False
+    return replace(bare, labels=np.array(["jump"] * FRAMES), contacts=contacts)
+
+
+def test_a_jump_is_entered_shortly_before_it_takes_off_and_never_left_in_the_air():
+    clips = [replace(CLIPS[0], contacts=np.ones((FRAMES, 2), bool)), jumping(slice(20, 30))]
+    nodes = nodes_of(clips, BEHAVIOURS)
+    graph = bridged(standard_graph(nodes, PointCloudMetric.of_clips(clips), NONE, 1.0), 8, 1.0)
+    source, target = graph.source[~graph.natural], graph.target[~graph.natural]
+    frame = graph.frame[target[source < FRAMES]]
+    assert frame.size
+    assert ((frame > 20 - STAY) & (frame < 20)).all()
+    left = graph.frame[source[source >= FRAMES]]
+    assert set(range(20)) | set(range(30, FRAMES)) == set(left.tolist())

@@ -31,7 +31,8 @@ def bridged(graph: MotionGraph, ways: int, sigma: float, tell: Callable[[float],
 
     They lead to the frame after the one that is least unlike by the uniform metric: of the captured frames of a
     behaviour, the lowest costs among their neighbours in the capture. Their cost is that s, whichever metric built
-    the graph. A one-shot behaviour, such as a jump, is neither entered nor left in the air.
+    the graph. A one-shot behaviour, such as a jump, is entered from the ground shortly before it takes off, and not
+    left in the air.
 
     Args:
         graph: a graph that can be walked without end.
@@ -49,22 +50,32 @@ def bridged(graph: MotionGraph, ways: int, sigma: float, tell: Callable[[float],
 
 
 def _candidates(graph: MotionGraph, windows: GraphWindows) -> NDArray[np.intp]:
-    """Captured frames that one comes after which stays in its behaviour, in the order of the capture.  # (M,)"""
+    """Captured frames that one comes after which stays in its behaviour, in the order of the capture.  # (M,)
+
+    A one-shot behaviour has to take off within those frames.
+    """
     after = windows.after
     here = np.where(after == NONE, 0, after)
     behaviour, at = graph.behaviour[here], here.copy()
-    stays = (after != NONE) & graph.original & (behaviour >= 0) & ~_aloft(graph)[here]
+    aloft, once = _aloft(graph), _is_once(graph)[here]
+    stays = (after != NONE) & graph.original & (behaviour >= 0) & ~aloft[here]
+    takes_off = ~once
     for _ in range(STAY - 1):
         stays &= (after[at] != NONE) & (graph.behaviour[after[at]] == behaviour)
         at = np.where(stays, after[at], 0)
-    found = np.flatnonzero(stays)
+        takes_off |= aloft[at]
+    found = np.flatnonzero(stays & takes_off)
     return found[np.lexsort((graph.frame[found], graph.clip[found]))]
 
 
 def _aloft(graph: MotionGraph) -> NDArray[np.bool_]:
     """Which frames are in the air within a one-shot behaviour.  # (N,)"""
-    once = [index for index, name in enumerate(graph.behaviours) if name in ONE_SHOT]
-    return np.isin(graph.behaviour, once) & ~graph.contacts.any(axis=1)
+    return _is_once(graph) & ~graph.contacts.any(axis=1)
+
+
+def _is_once(graph: MotionGraph) -> NDArray[np.bool_]:
+    """Which frames show a one-shot behaviour.  # (N,)"""
+    return np.isin(graph.behaviour, [index for index, name in enumerate(graph.behaviours) if name in ONE_SHOT])
 
 
 def _chosen(
