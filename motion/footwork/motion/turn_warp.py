@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from footwork.motion.alignment import turn
 from footwork.motion.arrays import frozen
 from footwork.motion.graph import MotionGraph
+from footwork.motion.graph_windows import NONE, GraphWindows, composed
 from footwork.motion.kinematics import forward
 from footwork.motion.metric import UNIT
 from footwork.motion.window import RADIUS, window_weights
@@ -98,23 +99,15 @@ def _moments_of_poses(places: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _moments_ahead(graph: MotionGraph, poses: NDArray[np.float64]) -> NDArray[np.float64]:
     """The window's sums of the moments of the poses that follow, each in its first node's planar frame.  # (N, 4)"""
-    following, step = _natural_steps(graph)
+    windows = GraphWindows(graph)
+    following = np.where(windows.after == NONE, np.arange(graph.node_count), windows.after)
     at, place = np.arange(graph.node_count), np.zeros((graph.node_count, 3))
     total = np.zeros_like(poses)
     for weight in window_weights()[RADIUS:] / UNIT**2:
         total += weight * _moved(poses[at], place)
-        place = _composed(place, step[at])
+        place = composed(place, windows.step[at])
         at = following[at]
     return total
-
-
-def _natural_steps(graph: MotionGraph) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """The node (N,) that naturally follows each, itself where none does, and its planar place (N, 3)."""
-    following, step = np.arange(graph.node_count), np.zeros((graph.node_count, 3))
-    edges = np.flatnonzero(graph.natural)[::-1]  # the first natural edge of a node is written last
-    source = graph.source[edges]
-    following[source], step[source] = graph.target[edges], graph.displacement[edges]
-    return following, step
 
 
 def _moved(moments: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -123,9 +116,3 @@ def _moved(moments: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[
     mean_x, mean_z = turn(moments[:, 1], moments[:, 2], yaw)
     square = moments[:, 3] + 2.0 * (mean_x * x + mean_z * z) + x**2 + z**2
     return np.stack([moments[:, 0], mean_x + x, mean_z + z, square], axis=-1)
-
-
-def _composed(place: NDArray[np.float64], step: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Planar places: ``step`` seen from where ``place`` is.  # (n, 3), (n, 3) -> (n, 3)"""
-    x, z = turn(step[:, 0], step[:, 1], place[:, 2])
-    return place + np.stack([x, z, step[:, 2]], axis=-1)
