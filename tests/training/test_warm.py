@@ -5,7 +5,8 @@ from footwork.training.blend_kernels import align_starts
 from footwork.training.build import build_bundle
 from footwork.training.chain_minima import minima_of_rows
 from footwork.training.graph_options import GraphOptions
-from footwork.training.sweeps import evaluate, improve
+from footwork.training.policy_values import settle
+from footwork.training.sweeps import improve
 from footwork.training.transitions import _find
 from footwork.training.warm import start_warming, warm
 from motion_samples import SampleMotions, sample_clips, stepping
@@ -14,8 +15,8 @@ from motion_samples import SampleMotions, sample_clips, stepping
 @pytest.mark.parametrize(
     ("graph", "kernels"),
     [
-        ("standard", (window_costs, _find, improve, evaluate)),
-        ("well-connected", (align_starts, minima_of_rows, improve, evaluate)),
+        ("standard", (window_costs, _find, improve, settle)),
+        ("well-connected", (align_starts, minima_of_rows, improve, settle)),
     ],
 )
 def test_after_warming_a_build_compiles_nothing_more(graph, kernels):

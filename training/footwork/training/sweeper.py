@@ -12,8 +12,11 @@ from footwork.errors import InputError
 from footwork.motion.actions import Actions, onward_actions
 from footwork.motion.player_model import PlayerModel, persistent_player
 from footwork.motion.task import SteeringTask
+from footwork.training.policy_values import WORKING_BYTES, settle
 from footwork.training.room import require_room
 from footwork.training.sweeps import evaluate, heading_qualities, improve, no_policy
+
+EVALUATIONS = 20
 
 SPANS = 8
 """A fixed number, as results depend on it: they must not on how many processors there are."""
@@ -30,7 +33,8 @@ class Sweeper:
     """Sweeps over the values of a task: greedy ones, and ones that follow the policy found last.
 
     With N B H states, numbers of z bytes and R = 1 where a decision holds for one tick, else 2, it takes about
-    N B H ((1 + R) z + R (2 z + 4)) bytes: 20 a state in float32, 36 in float64; 36 and 64 where R is 2.
+    N B H ((1 + R) z + R (2 z + 4)) bytes: 20 a state in float32, 36 in float64; 36 and 64 where R is 2. Where cycles
+    are settled it is at most 56 a state more.
 
     Args:
         actions: of the graph and the task.
@@ -58,7 +62,8 @@ class Sweeper:
     ) -> None:
         nodes, behaviours, headings = len(actions.behaviour), len(task.behaviours), task.heading_bins
         states, copies = nodes * behaviours * headings, 1 + min(task.segment_ticks, 2)
-        self.bytes = _bytes_needed(states, np.dtype(kind).itemsize, copies)
+        self._settles = player is None and task.segment_ticks == 1
+        self.bytes = _bytes_needed(states, np.dtype(kind).itemsize, copies) + self._settles * WORKING_BYTES * states
         if copies * nodes * (headings + 1) * behaviours > np.iinfo(np.int32).max:
             raise InputError(f"{states} states, expected fewer: places in their values are 32 bits wide", "task")
         require_room(self.bytes, f"{states} states", "fewer frames or heading bins", "task")
@@ -104,9 +109,18 @@ class Sweeper:
         after += np.where(alike, middle * discount / (1.0 - discount), 0.0).astype(after.dtype)
         return float(np.max(np.where(alike, half, np.abs(middle) + half)))
 
-    def follow(self, count: int) -> None:
-        """Make so many sweeps that follow the policy of the last greedy one."""
-        for _ in range(count):
+    def follow(self, tolerance: float, most: int) -> None:
+        """Come closer to what the policy of the last greedy sweep is worth, by ``most`` sweeps or fewer.
+
+        Where commands never change and a decision holds for one tick, one sweep goes as far as the policy leads, with
+        its cycles settled to ``tolerance``.
+        """
+        if self._settles and most:
+            settled = self._policy, self._discount
+            limits = tolerance, EVALUATIONS, self._copies, self._now
+            self._run([(settle, *settled, wanted, *limits) for wanted in range(self._copies.shape[3])])
+            return
+        for _ in range(min(EVALUATIONS, most)):
             old = self._now
             self._now = self._held(self._sweep(evaluate, self._policy, self._discount, self._ticks == 1))
             self._spare.append(old)
@@ -122,11 +136,14 @@ class Sweeper:
     def _sweep(self, kernel: Callable, *what: Any, old: int | None = None) -> int:
         """Run a kernel over all nodes, from one copy of the values to a spare one, which it returns."""
         old, new = self._now if old is None else old, self._spare.pop()
-        jobs = [self._pool.submit(kernel, *what, *self._player, *span, self._copies, old, new) for span in self._spans]
-        for job in jobs:
+        self._run([(kernel, *what, *self._player, *span, self._copies, old, new) for span in self._spans])
+        return new
+
+    def _run(self, calls: list[tuple[Any, ...]]) -> None:
+        """Make a sweep of calls that do not hang on one another, each (kernel, *arguments)."""
+        for job in [self._pool.submit(*call) for call in calls]:
             job.result()
         self.sweeps += 1
-        return new
 
 
 def _change(difference: NDArray) -> tuple[NDArray, NDArray]:

@@ -1,7 +1,8 @@
 """Value iteration: the reward every frame promises under every command (conventions.md 5).
 
 Modified policy iteration (Puterman and Shin 1978): a greedy sweep finds the best action of every state, then cheap
-sweeps follow those actions alone. Results do not depend on the number of threads.
+sweeps follow those actions alone, or one that goes to their ends where commands never change (``policy_values``).
+Results do not depend on the number of threads.
 """
 
 import math
@@ -26,7 +27,8 @@ from footwork.training.sweeper import Sweeper, spans_of
 
 TOLERANCE = 1e-3
 MAX_SWEEPS = 5000
-EVALUATIONS = 20
+SETTLED = 1e-3
+"""The part of the residual to which a policy's cycles are settled, so that what is left does not mislead the next."""
 _ROUNDINGS = 16.0
 
 
@@ -109,7 +111,7 @@ def fixed_point(
         residual, improvements, first = math.inf, 0, 0.0
         while residual >= tolerance and sweeper.sweeps < max_sweeps:
             if improvements:
-                sweeper.follow(min(EVALUATIONS, max_sweeps - sweeper.sweeps - 1))
+                sweeper.follow(SETTLED * residual, max_sweeps - sweeper.sweeps - 1)
             residual = sweeper.improve()
             improvements, first = improvements + 1, first or residual
             if progress is not None:

@@ -1,0 +1,172 @@
+"""What following a policy is worth where commands never change: one pass over most states, many over a few.
+
+A state leads to two, the headings that it comes between. Many states a policy only passes on its way: nothing leads to
+them but others of the kind. Taken away one after another (Kahn 1962) they leave a closed core, the cycles where it
+ends. The core is swept until its values settle; the others then follow in the opposite order, each once.
+"""
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.training.sweeps import Policy
+
+WORKING_BYTES = 56
+"""What settling takes for a state where all are in the core; else it is less."""
+
+
+class Ways(NamedTuple):
+    """The two states that each leads to, the same twice where it comes to a heading exactly.
+
+    Args:
+        first: # (S,) int32
+        second: # (S,) int32
+    """
+
+    first: NDArray[np.int32]
+    second: NDArray[np.int32]
+
+
+@numba.njit(cache=True, nogil=True)
+def settle(
+    policy: Policy, discount: float, wanted: int, tolerance: float, sweeps: int, copies: NDArray, now: int
+) -> None:
+    """Put what following ``policy`` under one command is worth in the place of a copy's values.
+
+    Args:
+        policy: what to follow.
+        discount: of a tick.
+        wanted: index of the command.
+        tolerance: the core is settled once a sweep changes it by less.
+        sweeps: no more are made of the core than cost what so many of all states would.
+        copies: values.  # (copies, N, H + 1, B)
+        now: the copy.
+    """
+    headings, behaviours, values = copies.shape[2] - 1, copies.shape[3], copies[now].reshape(-1)
+    place, shares, rewards = policy
+    ways = _ways(place, shares, wanted, headings, behaviours)
+    order, passed = _passed_by(ways)
+    _add_cycles(ways, order, passed)
+    core = order[passed:]
+    if len(core):
+        most = sweeps * len(order) // len(core)
+        _settle_core(policy, discount, wanted, tolerance, most, ways, core, values, headings, behaviours)
+    for index in range(passed - 1, -1, -1):
+        at = order[index] * behaviours + wanted
+        here, after = values[place[at]], values[place[at] + behaviours]
+        worth = rewards[at] + discount * (here + shares[at] * (after - here))
+        _put(values, order[index], wanted, headings, behaviours, worth)
+
+
+@numba.njit(cache=True, nogil=True)
+def _ways(place: NDArray, shares: NDArray, wanted: int, headings: int, behaviours: int) -> Ways:
+    """Where states lead under a command, as node * headings + heading."""
+    states = len(place) // behaviours
+    first, second = np.empty(states, np.int32), np.empty(states, np.int32)
+    for state in range(states):
+        at = state * behaviours + wanted
+        row = place[at] // behaviours
+        node = row // (headings + 1)
+        first[state] = second[state] = row - node
+        if shares[at] > 0.0:
+            second[state] += 1 if row - node * (headings + 1) < headings - 1 else 1 - headings
+    return Ways(first, second)
+
+
+@numba.njit(cache=True, nogil=True)
+def _passed_by(ways: Ways) -> tuple[NDArray[np.int32], int]:
+    """The states that no cycle leads to, each before those it leads to, and how many they are."""
+    first, second = ways
+    into, order, count = np.zeros(len(first), np.int32), np.empty(len(first), np.int32), 0
+    for state in range(len(first)):
+        into[first[state]] += 1
+        into[second[state]] += 1
+    for state in range(len(first)):
+        if into[state] == 0:
+            order[count] = state
+            count += 1
+    done = 0
+    while done < count:
+        for onward in (first[order[done]], second[order[done]]):
+            into[onward] -= 1
+            if into[onward] == 0:
+                order[count] = onward
+                count += 1
+        done += 1
+    return order, count
+
+
+@numba.njit(cache=True, nogil=True)
+def _add_cycles(ways: Ways, order: NDArray[np.int32], passed: int) -> None:
+    """Add the other states to ``order``, depth first: each after those it leads to, but where a cycle closes."""
+    first, second = ways
+    tried, path = np.zeros(len(order), np.uint8), np.empty(len(order) - passed, np.int32)
+    for state in order[:passed]:
+        tried[state] = 3
+    count = passed
+    for root in range(len(order)):
+        length = 0
+        if tried[root] == 0:
+            path[0], length = root, 1
+        while length > 0:
+            state = path[length - 1]
+            tried[state] += 1
+            if tried[state] > 2:
+                order[count] = state
+                count += 1
+                length -= 1
+                continue
+            onward = first[state] if tried[state] == 1 else second[state]
+            if tried[onward] == 0:
+                path[length] = onward
+                length += 1
+
+
+@numba.njit(cache=True, nogil=True)
+def _settle_core(
+    policy: Policy,
+    discount: float,
+    wanted: int,
+    tolerance: float,
+    most: int,
+    ways: Ways,
+    core: NDArray[np.int32],
+    values: NDArray,
+    headings: int,
+    behaviours: int,
+) -> None:
+    """Sweep over the core in its own order, in float64, on copies that lie close together."""
+    count, number = len(core), np.empty(len(ways.first), np.int32)
+    for index in range(count):
+        number[core[index]] = index
+    first, second = number[ways.first[core]], number[ways.second[core]]
+    here, after, reward, worth = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
+    for index in range(count):
+        state = core[index]
+        at = state * behaviours + wanted
+        after[index] = discount * policy.share[at]
+        here[index] = discount - after[index]
+        reward[index] = policy.reward[at]
+        worth[index] = values[(state + state // headings) * behaviours + wanted]
+    change, made = np.inf, 0
+    while change >= tolerance and made < most:
+        change = 0.0
+        for index in range(count):
+            new = reward[index] + (here[index] * worth[first[index]] + after[index] * worth[second[index]])
+            change = max(change, abs(new - worth[index]))
+            worth[index] = new
+        made += 1
+    for index in range(count):
+        _put(values, core[index], wanted, headings, behaviours, worth[index])
+
+
+@numba.njit(cache=True, nogil=True)
+def _put(values: NDArray, state: int, wanted: int, headings: int, behaviours: int, worth: float) -> None:
+    """Write a state's worth, at the first heading also after the last."""
+    node = state // headings
+    at = (state + node) * behaviours + wanted
+    values[at] = worth
+    if state == node * headings:
+        values[at + headings * behaviours] = worth
