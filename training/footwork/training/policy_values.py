@@ -5,8 +5,6 @@ them but others of the kind. Taken away one after another (Kahn 1962) they leave
 ends. The core is swept until its values settle; the others then follow in the opposite order, each once.
 """
 
-from typing import NamedTuple
-
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -15,18 +13,6 @@ from footwork.training.sweeps import Policy
 
 WORKING_BYTES = 56
 """What settling takes for a state where all are in the core; else it is less."""
-
-
-class Ways(NamedTuple):
-    """The two states that each leads to, the same twice where it comes to a heading exactly.
-
-    Args:
-        first: # (S,) int32
-        second: # (S,) int32
-    """
-
-    first: NDArray[np.int32]
-    second: NDArray[np.int32]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -61,35 +47,37 @@ def settle(
 
 
 @numba.njit(cache=True, nogil=True)
-def _ways(place: NDArray, shares: NDArray, wanted: int, headings: int, behaviours: int) -> Ways:
-    """Where states lead under a command, as node * headings + heading."""
+def _ways(place: NDArray, shares: NDArray, wanted: int, headings: int, behaviours: int) -> NDArray[np.int32]:
+    """The two states that each leads to under a command, the same twice where it comes to a heading exactly.  # (S, 2)
+
+    They are numbered node * headings + heading.
+    """
     states = len(place) // behaviours
-    first, second = np.empty(states, np.int32), np.empty(states, np.int32)
+    ways = np.empty((states, 2), np.int32)
     for state in range(states):
         at = state * behaviours + wanted
         row = place[at] // behaviours
         node = row // (headings + 1)
-        first[state] = second[state] = row - node
+        ways[state] = row - node
         if shares[at] > 0.0:
-            second[state] += 1 if row - node * (headings + 1) < headings - 1 else 1 - headings
-    return Ways(first, second)
+            ways[state, 1] += 1 if row - node * (headings + 1) < headings - 1 else 1 - headings
+    return ways
 
 
 @numba.njit(cache=True, nogil=True)
-def _passed_by(ways: Ways) -> tuple[NDArray[np.int32], int]:
+def _passed_by(ways: NDArray[np.int32]) -> tuple[NDArray[np.int32], int]:
     """The states that no cycle leads to, each before those it leads to, and how many they are."""
-    first, second = ways
-    into, order, count = np.zeros(len(first), np.int32), np.empty(len(first), np.int32), 0
-    for state in range(len(first)):
-        into[first[state]] += 1
-        into[second[state]] += 1
-    for state in range(len(first)):
+    into, order, count = np.zeros(len(ways), np.int32), np.empty(len(ways), np.int32), 0
+    for state in range(len(ways)):
+        into[ways[state, 0]] += 1
+        into[ways[state, 1]] += 1
+    for state in range(len(ways)):
         if into[state] == 0:
             order[count] = state
             count += 1
     done = 0
     while done < count:
-        for onward in (first[order[done]], second[order[done]]):
+        for onward in ways[order[done]]:
             into[onward] -= 1
             if into[onward] == 0:
                 order[count] = onward
@@ -99,9 +87,8 @@ def _passed_by(ways: Ways) -> tuple[NDArray[np.int32], int]:
 
 
 @numba.njit(cache=True, nogil=True)
-def _add_cycles(ways: Ways, order: NDArray[np.int32], passed: int) -> None:
+def _add_cycles(ways: NDArray[np.int32], order: NDArray[np.int32], passed: int) -> None:
     """Add the other states to ``order``, depth first: each after those it leads to, but where a cycle closes."""
-    first, second = ways
     tried, path = np.zeros(len(order), np.uint8), np.empty(len(order) - passed, np.int32)
     for state in order[:passed]:
         tried[state] = 3
@@ -118,7 +105,7 @@ def _add_cycles(ways: Ways, order: NDArray[np.int32], passed: int) -> None:
                 count += 1
                 length -= 1
                 continue
-            onward = first[state] if tried[state] == 1 else second[state]
+            onward = ways[state, tried[state] - 1]
             if tried[onward] == 0:
                 path[length] = onward
                 length += 1
@@ -131,17 +118,17 @@ def _settle_core(
     wanted: int,
     tolerance: float,
     most: int,
-    ways: Ways,
+    ways: NDArray[np.int32],
     core: NDArray[np.int32],
     values: NDArray,
     headings: int,
     behaviours: int,
 ) -> None:
     """Sweep over the core in its own order, in float64, on copies that lie close together."""
-    count, number = len(core), np.empty(len(ways.first), np.int32)
+    count, number = len(core), np.empty(len(ways), np.int32)
     for index in range(count):
         number[core[index]] = index
-    first, second = number[ways.first[core]], number[ways.second[core]]
+    first, second = number[ways[core, 0]], number[ways[core, 1]]
     here, after, reward, worth = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
     for index in range(count):
         state = core[index]

@@ -5,6 +5,7 @@ from concurrent.futures import Executor
 from itertools import pairwise
 from typing import Any
 
+import numba
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
@@ -98,15 +99,17 @@ class Sweeper:
         old = self._now
         self._now = self._held(self._sweep(improve, self._policy, self._actions, self._qualities))
         self._spare.append(old)
-        before, after = self._copies[old], self._copies[self._now]
-        bounds = [_change(after[begin:end] - before[begin:end]) for begin, end in self._spans]
-        least, most = np.min(bounds, axis=0)[0], np.max(bounds, axis=0)[1]
+        jobs = [self._pool.submit(_change, self._copies[old], self._copies[self._now], *span) for span in self._spans]
+        bounds = np.array([job.result() for job in jobs])
+        least, most = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
         if not self._player[1]:
             least, most = least.min(), most.max()
         middle, half = 0.5 * (least + most), 0.5 * (most - least)
         alike = half < 0.5 * np.abs(middle)
         discount = float(self._discount) ** self._ticks
-        after += np.where(alike, middle * discount / (1.0 - discount), 0.0).astype(after.dtype)
+        lack = np.where(alike, middle * discount / (1.0 - discount), 0.0).astype(self._copies.dtype)
+        if lack.any():
+            self._copies[self._now] += lack
         return float(np.max(np.where(alike, half, np.abs(middle) + half)))
 
     def follow(self, tolerance: float, most: int) -> None:
@@ -146,9 +149,18 @@ class Sweeper:
         self.sweeps += 1
 
 
-def _change(difference: NDArray) -> tuple[NDArray, NDArray]:
-    """The least and the greatest of each behaviour.  # (n, H + 1, B) -> (B,), (B,)"""
-    return difference.min(axis=(0, 1)), difference.max(axis=(0, 1))
+@numba.njit(cache=True, nogil=True)
+def _change(before: NDArray, after: NDArray, begin: int, end: int) -> NDArray:
+    """The least and the greatest change of each behaviour in the nodes begin..end-1.  # (2, B)"""
+    bounds = np.empty((2, before.shape[2]))
+    bounds[0], bounds[1] = np.inf, -np.inf
+    for node in range(begin, end):
+        for h in range(before.shape[1]):
+            for wanted in range(before.shape[2]):
+                change = after[node, h, wanted] - before[node, h, wanted]
+                bounds[0, wanted] = min(bounds[0, wanted], change)
+                bounds[1, wanted] = max(bounds[1, wanted], change)
+    return bounds
 
 
 def _bytes_needed(states: int, number: int, copies: int) -> int:
