@@ -27,7 +27,8 @@ from support.rival_solvers import by_numpy, by_quantecon, pairs_of, quantecon_pr
 from support.steering_process import captured_process, random_process
 
 RESIDUAL = 1e-6
-THRESHOLDS = (0.2, 1.0, 5.0, 10.0)
+NUMPY_SWEEPS = 100
+THRESHOLDS = (1.0, 5.0)
 
 
 def main(nodes: int = 20_000, edges: int = 8, repeats: int = 3) -> None:
@@ -43,7 +44,7 @@ def main(nodes: int = 20_000, edges: int = 8, repeats: int = 3) -> None:
 
 
 def against_others(nodes: int, edges: int, repeats: int) -> dict[str, Any]:
-    """The same process by each solver, to the same residual."""
+    """The same process by each solver, to the same residual; numpy stops early, so its time is at least as told."""
     task = SteeringTask(behaviours=("stop", "walk"), discount=0.99)
     actions = random_process(nodes, edges, task)
     pairs = pairs_of(actions, task)
@@ -52,7 +53,7 @@ def against_others(nodes: int, edges: int, repeats: int) -> dict[str, Any]:
     by_quantecon(process, nbytes, task.discount, 1.0)  # compiles what it compiles
     rivals = {
         "quantecon": lambda: by_quantecon(process, nbytes, task.discount, RESIDUAL),
-        "numpy": lambda: by_numpy(pairs, task.discount, RESIDUAL),
+        "numpy": lambda: by_numpy(pairs, task.discount, RESIDUAL, NUMPY_SWEEPS),
     }
     median = float(np.median(times))
     report: dict[str, Any] = {
@@ -69,6 +70,7 @@ def against_others(nodes: int, edges: int, repeats: int) -> dict[str, Any]:
         report[name] = {
             "seconds": seconds,
             "improvements": found[0].improvements,
+            "residual": found[0].residual,
             "mb": found[0].nbytes / 1e6,
             "largest_difference_to_ours": float(apart),
             "times_ours": seconds / median,
@@ -86,9 +88,10 @@ def _ours(actions: Actions, task: SteeringTask, repeats: int) -> tuple[Solution,
 def _figures(found: Solution, times: list[float], actions: Actions, task: SteeringTask) -> dict[str, Any]:
     """What it took, and the part of the memory's bandwidth that the sweeps reached."""
     number, states = found.values.itemsize, found.values.size
-    # a cheap sweep reads a policy and two values a state and writes one; a greedy one reads a row of values an edge
-    # and behaviour, writes values and policy, and compares new values with old ones
-    cheap = states * (4 + 5 * number)
+    # to follow a policy is to write where its states lead, count that, take them away one after another, and read
+    # policy and values; a greedy sweep reads a row of values an edge and behaviour, writes values and policy, and
+    # compares new values with old ones
+    cheap = states * (75 + 6 * number)
     greedy = number * len(actions.target) * len(task.behaviours) * (task.heading_bins + 1) + states * (4 + 5 * number)
     moved = found.improvements * greedy + (found.sweeps - found.improvements) * cheap
     bandwidth, median = memory_bandwidth(threads=THREADS), float(np.median(times))

@@ -25,10 +25,11 @@ class Pairs(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Values, the count of improvements, and what the arrays of the solver took."""
+    """Values, the count of improvements, the residual they are under, and what the arrays of the solver took."""
 
     values: NDArray[np.float64]
     improvements: int
+    residual: float
     nbytes: int
 
 
@@ -76,19 +77,19 @@ def by_quantecon(process, nbytes: int, discount: float, residual: float) -> Foun
     """Modified policy iteration; it stops where half the span of a change is under ``residual``."""
     epsilon = 2.0 * residual * discount / (1.0 - discount)
     found = process.solve(method="modified_policy_iteration", epsilon=epsilon, max_iter=10_000)
-    return Found(found.v, found.num_iter, nbytes)
+    return Found(found.v, found.num_iter, residual, nbytes)
 
 
-def by_numpy(pairs: Pairs, discount: float, residual: float) -> Found:
-    """Plain sweeps over every action, stopped and completed by the same bounds."""
-    values, sweeps, least, most = np.zeros(len(pairs.reward)), 0, 0.0, np.inf
-    while 0.5 * (most - least) >= residual:
+def by_numpy(pairs: Pairs, discount: float, residual: float, most: int) -> Found:
+    """Plain sweeps over every action, stopped and completed by the same bounds, or after ``most``."""
+    values, sweeps, least, highest = np.zeros(len(pairs.reward)), 0, 0.0, np.inf
+    while 0.5 * (highest - least) >= residual and sweeps < most:
         here, following = values[pairs.low], values[pairs.high]
         here += pairs.share * (following - here)
         here *= discount
         here += pairs.reward
         new = here.max(axis=1)
-        least, most = (new - values).min(), (new - values).max()
+        least, highest = (new - values).min(), (new - values).max()
         values, sweeps = new, sweeps + 1
-    values += 0.5 * (least + most) * discount / (1.0 - discount)
-    return Found(values, sweeps, pairs.nbytes + 3 * pairs.reward.nbytes)
+    values += 0.5 * (least + highest) * discount / (1.0 - discount)
+    return Found(values, sweeps, 0.5 * float(highest - least), pairs.nbytes + 3 * pairs.reward.nbytes)
