@@ -89,9 +89,8 @@ def _ordered(values: NDArray, rows: NDArray) -> NDArray:
         half = WIDTH
         while 2 * half < end - begin:
             half *= 2
-        part = order[begin:end].copy()
-        keys = values[:, _widest(values, part)][part]
-        _halve(part, keys, half, order[begin:end])
+        part = order[begin:end]
+        _halve(part, values[:, _widest(values, part)][part], half)
         begins.append(begin)
         ends.append(begin + half)
         begins.append(begin + half)
@@ -112,22 +111,29 @@ def _widest(values: NDArray, rows: NDArray) -> int:
 
 
 @numba.njit(cache=True, nogil=True)
-def _halve(rows: NDArray, values: NDArray, half: int, order: NDArray) -> None:
-    """Write the rows of the ``half`` least values before the others."""
-    pivot = np.partition(values, half)[half]
-    equal = half - np.sum(values < pivot)  # so many of those at the pivot go to the first half
-    low, high = 0, half
-    for at in range(len(rows)):
-        first = values[at] < pivot
-        if values[at] == pivot and equal > 0:
-            equal -= 1
-            first = True
-        if first:
-            order[low] = rows[at]
-            low += 1
+def _halve(rows: NDArray, values: NDArray, half: int) -> None:
+    """Reorder rows so that the ``half`` of the least values come first (Hoare's selection).
+
+    Written out because numpy's takes a quarter of all the time that compiling a search takes.
+    """
+    low, high = 0, len(rows) - 1
+    while low < high:
+        pivot, up, down = values[(low + high) // 2], low, high
+        while up <= down:
+            while values[up] < pivot:
+                up += 1
+            while values[down] > pivot:
+                down -= 1
+            if up <= down:
+                values[up], values[down] = values[down], values[up]
+                rows[up], rows[down] = rows[down], rows[up]
+                up, down = up + 1, down - 1
+        if half <= down:
+            high = down
+        elif half >= up:
+            low = up
         else:
-            order[high] = rows[at]
-            high += 1
+            return
 
 
 @numba.njit(cache=True, nogil=True)

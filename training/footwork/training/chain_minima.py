@@ -40,7 +40,7 @@ def minima_of_rows(
     """Minima of the rows begin..end - 1, whole chains, with later rows.
 
     Returns:
-        pairs: nodes i < j, sorted by i, then j.  # (n, 2)
+        pairs: nodes i < j, in no order.  # (n, 2)
         costs: their s.  # (n,)
     """
     size = len(rows.node)
@@ -57,7 +57,7 @@ def minima_of_rows(
         near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, masks, touched)
         count = _collect(low, rows, masks, touched, near)
         set_rows(tile, rows.compared, low, high + 1 - low)
-        begun, at = total, 0
+        at = 0
         while at < count:
             past = _run(near[:count], at, rows)
             box = _box(low, near[:count], at, past, rows)
@@ -66,7 +66,6 @@ def minima_of_rows(
             ends = begin, stop, near[at, 0], near[past - 1, 0] + 1
             pairs, costs, total = _append(candidates[:found], box, ends, rows, tile, pairs, costs, total)
             at = past
-        _sort(pairs[begun:total], costs[begun:total])
         begin = stop
     return pairs[:total].copy(), costs[:total].copy()
 
@@ -78,13 +77,6 @@ def _bits(low: int, high: int, awake: NDArray) -> tuple[int, int]:
     for row in range(low, high + 1):
         bits[1 if awake[row] else 0] |= 1 << (row - low)
     return bits[0], bits[1]
-
-
-@numba.njit(cache=True, nogil=True)
-def _sort(pairs: NDArray, costs: NDArray) -> None:
-    order = np.argsort(pairs[:, 0].astype(np.int64) * (1 << 32) + pairs[:, 1])
-    pairs[:] = pairs[order]
-    costs[:] = costs[order]
 
 
 @numba.njit(cache=True, nogil=True)

@@ -116,4 +116,7 @@ def _tasks(starts: NDArray[np.intp], rows: int) -> list[tuple[int, int]]:
 def _found(
     task: tuple[int, int], rows: Rows, everyone: Forest, awake: Forest, threshold: float
 ) -> tuple[NDArray, NDArray]:
-    return minima_of_rows(*task, rows, everyone, awake, threshold)
+    # sorted here rather than in compiled code, where numpy's sort is slow to compile
+    pairs, costs = minima_of_rows(*task, rows, everyone, awake, threshold)
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    return pairs[order], costs[order]
