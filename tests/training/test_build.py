@@ -1,6 +1,7 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from footwork.errors import InputError
@@ -140,3 +141,12 @@ def test_a_bundle_knows_the_players_that_its_policy_learned_from(built, tmp_path
     assert [(file.name, file.digest) for file in player.learned_from] == [(one.name, one.digest) for one in players]
     assert built[0].table("steering").player is None
     assert (bundle.table("steering").values != built[0].table("steering").values).any()
+
+
+def test_motion_without_a_behaviour_that_can_be_asked_for_gets_a_graph_and_no_policy():
+    clips = [replace(clip, labels=np.full(clip.frame_count, "attack")) for clip in sample_clips(2, 80)]
+    bundle, report = build_bundle(SampleMotions(clips), GraphOptions(threshold=1.0))
+    assert (dict(bundle.tables), report["policy"]) == ({}, None)
+    assert report["missing_behaviours"] == list(SteeringTask().behaviours)
+    with pytest.raises(InputError, match="no table 'steering'"):
+        bundle.table("steering")

@@ -72,6 +72,8 @@ def build(
         compiled = time.perf_counter() - started - read
         bundle, report = build_bundle(dataset, options, task=task, players=recorded, progress=report_progress)
         digest = write_bundle(out, bundle)
+    if report["policy"] is None:
+        log("no frame shows a behaviour that can be asked for, so there is no policy: see --labels")
     if warning := report.get("knee", {}).get("warning"):
         log(warning)
     seconds = report["seconds"] | {"read": read, "compile": compiled, "total": time.perf_counter() - started}

@@ -11,6 +11,7 @@ from footwork.motion.bundle import Bundle, sealed
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.mirror import mirrored
+from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.motion.trace import Trace
 from footwork.motion.window import LENGTH
@@ -60,7 +61,8 @@ def build_bundle(
     The report is JSON-able: frames (captured), mirrored_frames (where there are any), nodes, edges (of the whole
     graph), scc_nodes, scc_fraction (of the captured and mirrored frames), what the graph's kind adds, threshold, knee
     (where it was to be found), seconds (read, which is 0 for the clips came from the caller, each stage and the total),
-    peak_rss_mb, policy (states, sweeps, residual, converged), missing_behaviours (those that no frame of the graph
+    peak_rss_mb, policy (states, sweeps, residual, converged; None where no frame shows any
+    behaviour, for there is nothing to steer by then), missing_behaviours (those that no frame of the graph
     shows, so that commands for them go unanswered) and digest.
 
     Args:
@@ -80,12 +82,14 @@ def build_bundle(
     options, choice = chosen(motions.clips, options, stages)
     clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
     built = _RECIPES[options.graph](clips, options, task, stages)
-    with stages("policy") as tell:
-        player = learned(players, task, _shown_behaviours(built.graph)) if players else None
-        table = solve(built.graph, task, player=player, progress=tell).require_converged().compact
+    tables: dict[str, PolicyTable] = {}
+    if _shown_behaviours(built.graph):
+        with stages("policy") as tell:
+            player = learned(players, task, _shown_behaviours(built.graph)) if players else None
+            tables["steering"] = solve(built.graph, task, player=player, progress=tell).require_converged().compact
     extra = _mirrored_frames(motions, options)
     provenance = _provenance(motions, options, task, built, extra) | choice
-    bundle = sealed(Bundle(built.graph, {"steering": table}, provenance, tuple(motions.attribution)))
+    bundle = sealed(Bundle(built.graph, tables, provenance, tuple(motions.attribution)))
     report = {
         "frames": sum(clip.frame_count for clip in motions.clips),
         **extra,
@@ -98,12 +102,7 @@ def build_bundle(
         **choice,
         "seconds": {"read": 0.0} | stages.seconds | {"total": sum(stages.seconds.values())},
         "peak_rss_mb": peak_rss_mb(),
-        "policy": {
-            "states": table.values.size,
-            "sweeps": table.sweeps,
-            "residual": table.residual,
-            "converged": table.converged,
-        },
+        "policy": _solved(tables["steering"]) if tables else None,
         "missing_behaviours": [name for name in task.behaviours if name not in _shown_behaviours(built.graph)],
         "digest": bundle.digest,
     }
@@ -115,6 +114,15 @@ def _check(clips: Sequence[Clip]) -> None:
         if clip.frame_count < LENGTH:
             problem = f"{clip.frame_count} frames at 30 Hz, expected at least the {LENGTH} of the metric's window"
             raise InputError(problem, clip.name)
+
+
+def _solved(table: PolicyTable) -> dict[str, Any]:
+    return {
+        "states": table.values.size,
+        "sweeps": table.sweeps,
+        "residual": table.residual,
+        "converged": table.converged,
+    }
 
 
 def _shown_behaviours(graph: MotionGraph) -> list[str]:
