@@ -26,7 +26,7 @@ STRANGER = replace(trace("stranger.csv"), digest="f" * 64)
 
 
 def solved(traces: list[Trace]) -> PolicyTable:
-    return solve(GRAPH, TASK, player=learned(traces, TASK, present_behaviours(GRAPH)))
+    return solve(GRAPH, TASK, player=learned(traces, TASK, present_behaviours(GRAPH))).compact
 
 
 @pytest.fixture(scope="module")

@@ -108,14 +108,15 @@ def fixed_point(
     """
     with ThreadPoolExecutor(THREADS) as pool:
         sweeper = Sweeper(actions, onward, task, player, _precision(task, tolerance), pool)
-        residual, improvements, first = math.inf, 0, 0.0
+        residual, improvements, first, done = math.inf, 0, 0.0, 0.0
         while residual >= tolerance and sweeper.sweeps < max_sweeps:
             if improvements:
                 sweeper.follow(SETTLED * residual, max_sweeps - sweeper.sweeps - 1)
             residual = sweeper.improve()
             improvements, first = improvements + 1, first or residual
+            done = max(done, _share_done(residual, first, tolerance))  # residuals may rise on their way down
             if progress is not None:
-                progress(_share_done(residual, first, tolerance))
+                progress(done)
     return Solution(sweeper.values, residual, sweeper.sweeps, improvements, sweeper.bytes)
 
 
