@@ -5,7 +5,7 @@ import pytest
 
 from footwork.motion.metric import PointCloudMetric
 from footwork.motion.task import BEHAVIOURS
-from footwork.training.bridges import STAY, bridged
+from footwork.training.bridges import NEAR_GROUND, STAY, bridged
 from footwork.training.graph_options import GraphOptions
 from footwork.training.nodes import nodes_of
 from footwork.training.standard_graph import moved, relative, standard_graph
@@ -98,13 +98,13 @@ def jumping(aloft: slice):
     return replace(bare, labels=np.array(["jump"] * FRAMES), contacts=contacts)
 
 
-def test_a_jump_is_entered_shortly_before_it_takes_off_and_never_left_in_the_air():
+def test_a_jump_is_entered_shortly_before_it_takes_off_and_left_when_it_is_about_to_land():
     clips = [replace(CLIPS[0], contacts=np.ones((FRAMES, 2), bool)), jumping(slice(20, 30))]
     nodes = nodes_of(clips, BEHAVIOURS)
     graph = bridged(standard_graph(nodes, PointCloudMetric.of_clips(clips), NONE, 1.0), 8, 1.0)
     source, target = graph.source[~graph.natural], graph.target[~graph.natural]
     frame = graph.frame[target[source < FRAMES]]
     assert frame.size
-    assert ((frame > 20 - STAY) & (frame < 20)).all()
+    assert ((frame >= 20 - NEAR_GROUND) & (frame < 20)).all()
     left = graph.frame[source[source >= FRAMES]]
-    assert set(range(20)) | set(range(30, FRAMES)) == set(left.tolist())
+    assert set(range(20)) | set(range(30 - NEAR_GROUND, FRAMES)) == set(left.tolist())

@@ -22,6 +22,8 @@ from footwork.training.transitions import MIN_GAP
 
 STAY = 9
 """A bridge leads to frames whose motion goes on in their behaviour for so many ticks, 0.3 s (convention)."""
+NEAR_GROUND = 5
+"""A jump is entered so many ticks before it takes off at most, left so many before it lands at most (convention)."""
 _ROWS = 256  # nodes whose costs to all candidates are held at once
 _PAIRS = 512
 
@@ -32,7 +34,7 @@ def bridged(graph: MotionGraph, ways: int, sigma: float, tell: Callable[[float],
     They lead to the frame after the one that is least unlike by the uniform metric: of the captured frames of a
     behaviour, the lowest costs among their neighbours in the capture. Their cost is that s, whichever metric built
     the graph. A one-shot behaviour, such as a jump, is entered from the ground shortly before it takes off, and not
-    left in the air.
+    left in the air until shortly before it lands.
 
     Args:
         graph: a graph that can be walked without end.
@@ -52,20 +54,27 @@ def bridged(graph: MotionGraph, ways: int, sigma: float, tell: Callable[[float],
 def _candidates(graph: MotionGraph, windows: GraphWindows) -> NDArray[np.intp]:
     """Captured frames that one comes after which stays in its behaviour, in the order of the capture.  # (M,)
 
-    A one-shot behaviour has to take off within those frames.
+    A one-shot behaviour has to take off within the first of those frames.
     """
     after = windows.after
     here = np.where(after == NONE, 0, after)
     behaviour, at = graph.behaviour[here], here.copy()
-    aloft, once = _aloft(graph), _is_once(graph)[here]
+    aloft = _aloft(graph)
     stays = (after != NONE) & graph.original & (behaviour >= 0) & ~aloft[here]
-    takes_off = ~once
     for _ in range(STAY - 1):
         stays &= (after[at] != NONE) & (graph.behaviour[after[at]] == behaviour)
         at = np.where(stays, after[at], 0)
-        takes_off |= aloft[at]
-    found = np.flatnonzero(stays & takes_off)
+    found = np.flatnonzero(stays & (~_is_once(graph) | _soon(windows, aloft))[here])
     return found[np.lexsort((graph.frame[found], graph.clip[found]))]
+
+
+def _soon(windows: GraphWindows, holds: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """At which frames something holds, or will after NEAR_GROUND ticks or fewer of the capture.  # (N,)"""
+    at, soon = np.arange(len(holds)), holds.copy()
+    for _ in range(NEAR_GROUND):
+        at = np.where(windows.after[at] == NONE, at, windows.after[at])
+        soon |= holds[at]
+    return soon
 
 
 def _aloft(graph: MotionGraph) -> NDArray[np.bool_]:
@@ -84,7 +93,7 @@ def _chosen(
     """Source and target of the bridges."""
     there = windows.after[similar]
     adjoining = np.append(there[:-1] == similar[1:], False)
-    grounded = np.flatnonzero(~_aloft(graph))
+    grounded = np.flatnonzero(_soon(windows, ~_aloft(graph)))
     ground, height, energy = _factors(windows, similar)
     sources, targets = [], []
     for first in range(0, len(grounded), _ROWS):
