@@ -12,12 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.actions import Rules
-
-
-@numba.njit(cache=True, nogil=True)
-def wrapped_angle(angle: float) -> float:
-    """The same angle, radians, within -pi..pi."""
-    return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)
+from footwork.motion.angle import wrapped_angle
 
 
 @numba.njit(cache=True, nogil=True)

@@ -5,16 +5,11 @@ import math
 import numba
 from numpy.typing import NDArray
 
+from footwork.motion.angle import wrapped_angle
 from footwork.motion.moves import LEAP
 from footwork.runtime.rotation_kernels import turned
 
 _SMALL = 1e-4  # rad: below it series are good to float64
-
-
-@numba.njit(cache=True, nogil=True)
-def within_half_turn(angle: float) -> float:
-    """The same direction as an angle in -pi..pi; angles already there stay as they are to the last bit."""
-    return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -81,7 +76,7 @@ def _carry(place: NDArray, transform: NDArray) -> None:
     x, _, z = turned(math.cos(yaw), math.sin(yaw), (transform[0], 0.0, transform[1]))
     place[0] += x
     place[1] += z
-    place[2] = within_half_turn(yaw + transform[2])
+    place[2] = wrapped_angle(yaw + transform[2])
 
 
 @numba.njit(cache=True, nogil=True)

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from footwork.errors import FootworkError
 from footwork.motion.alignment import turn as rotated
+from footwork.motion.angle import wrapped_angle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
 from footwork.motion.tick import TICK
@@ -15,7 +16,7 @@ from footwork.runtime.foot_lock import legs_of, lowest_balls, update_locks
 from footwork.runtime.held_feet import hold_feet
 from footwork.runtime.inertialisation import decay, take_jumps, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
-from footwork.runtime.moving import first_wrong_move, make_moves, within_half_turn
+from footwork.runtime.moving import first_wrong_move, make_moves
 from footwork.runtime.rotation_kernels import turned
 
 HALFLIFE = 0.1
@@ -120,7 +121,7 @@ class World:
         self.active[slot] = True
         self.node[slot] = node
         self.edge[slot], self.natural[slot] = LEAP, True
-        self.place[slot] = x, z, within_half_turn(yaw)
+        self.place[slot] = x, z, wrapped_angle(yaw)
         self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = self._glide[slot] = 0
         self._locked[slot] = self._slip[slot] = self._stride[slot] = 0
         return slot
@@ -146,7 +147,7 @@ class World:
         _require_finite(x, z, yaw)
         self._move_locks(slot, (x, z, yaw))
         turn = yaw - self.place[slot, 2]
-        self.place[slot] = x, z, within_half_turn(yaw)
+        self.place[slot] = x, z, wrapped_angle(yaw)
         # What these hold is given in the world: the root's offset and velocity, and those of joint 0.
         joint = self._offsets[slot, :, 0]
         for vectors in (*self._roots[slot], joint[:VELOCITY], joint[VELOCITY:]):

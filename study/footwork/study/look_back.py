@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.actions import Actions
-from footwork.motion.angle import wrapped
-from footwork.motion.lookahead import control_quality, reward_of, wrapped_angle
+from footwork.motion.angle import wrapped, wrapped_angle
+from footwork.motion.lookahead import control_quality, reward_of
 from footwork.motion.threads import THREADS
 
 _FRACTIONS = 64
