@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from footwork.errors import InputError
+from footwork.motion.asked import askable
 from footwork.motion.task import BEHAVIOURS
-from footwork.motion.trace import COLUMNS, Trace, askable, jump_windows, read_trace, steering_commands
+from footwork.motion.trace import COLUMNS, Trace, jump_windows, read_trace, steering_commands
 from shared_data import TRACES, needs_traces
 
 ALL = ("stop", "walk", "run", "jump")

@@ -5,7 +5,7 @@ Format and convention: traces/PROVENANCE.md.
 
 import hashlib
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -178,25 +178,6 @@ def steering_commands(trace: Trace, start_facing: float, behaviours: Collection[
         behaviour=frozen(behaviour[latest], np.int32),
         jump=frozen(jump[latest], np.int32),
     )
-
-
-def askable(behaviour: NDArray[np.int32], numbered: Sequence[str], present: Collection[str]) -> NDArray[np.int32]:
-    """What to ask of a character at each tick, where not every behaviour asked for can be shown.
-
-    It goes on with what it was last asked for and can show; at first it stops, or does the first it can.
-
-    Args:
-        behaviour: what the player asks for, an index into ``task.BEHAVIOURS``.  # (K,)
-        numbered: the behaviours that the result numbers, as of ``MotionGraph.behaviours``.
-        present: those that can be shown, one at least.
-
-    Returns:
-        An index into ``numbered`` for each tick.  # (K,)
-    """
-    asked = np.array([numbered.index(name) if name in present else -1 for name in BEHAVIOURS])[behaviour]
-    first = numbered.index("stop" if "stop" in present else next(name for name in numbered if name in present))
-    known = np.maximum.accumulate(np.where(asked >= 0, np.arange(1, len(asked) + 1), 0))
-    return np.concatenate([[first], asked])[known].astype(np.int32)
 
 
 def jump_windows(attack: ArrayLike) -> NDArray[np.int32]:

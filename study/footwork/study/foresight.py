@@ -15,11 +15,11 @@ from footwork.controllers.controller import present_behaviours
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.actions import actions_of
+from footwork.motion.asked import going_on, spawn_behaviour
 from footwork.motion.graph import MotionGraph
 from footwork.motion.table import PolicyTable
 from footwork.motion.tick import TICK_RATE
 from footwork.motion.turn_warp import turn_warp
-from footwork.study.asked import going_on, spawn_behaviour
 from footwork.study.look_back import LookBack, between_bins
 from footwork.study.planned import PlannedController
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import Controller, Situations
+from footwork.motion.asked import asked_of, going_on, spawn_behaviour
 from footwork.motion.moves import no_moves
 from footwork.motion.trace import Trace
-from footwork.study.asked import asked_of, going_on, spawn_behaviour
 from footwork.study.showing import Showing
 
 CHARACTERS = 256

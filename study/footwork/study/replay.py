@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import Controller, Situations
+from footwork.motion.asked import asked_of, going_on, spawn_behaviour
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import no_moves
 from footwork.motion.task import BEHAVIOURS
 from footwork.motion.trace import SteeringCommands, Trace
 from footwork.motion.turn_warp import TurnWarp, turn_warp
-from footwork.study.asked import asked_of, going_on, spawn_behaviour
 from footwork.study.charges import charges
 from footwork.study.contender import Contender, Foreseeing
 from footwork.study.measures import TASK, Followed

@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion.angle import wrapped
+from footwork.motion.asked import askable
 from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.task import SteeringTask
-from footwork.motion.trace import Trace, askable, steering_commands
+from footwork.motion.trace import Trace, steering_commands
 
 ADDED_CHANGES = 1.0
 """Changes of mind added to those seen after each behaviour, spread evenly over all commands with a behaviour that was

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import Controller, Situations
+from footwork.motion.asked import asked_of, going_on, spawn_behaviour
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import no_moves
 from footwork.motion.trace import Trace, read_trace
 from footwork.motion.turn_warp import turn_warp
 from footwork.runtime.world import World
-from footwork.study.asked import asked_of, going_on, spawn_behaviour
 from footwork.study.charges import charges
 from footwork.study.measures import TASK
 from footwork.study.motion_matching.chains import graph_of_all_frames
