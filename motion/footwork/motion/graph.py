@@ -1,12 +1,14 @@
 """The motion graph: nodes are frames, edges are what may be played next."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion.arrays import frozen, require_finite, require_range, require_shape
+from footwork.motion.kinematics import forward
 from footwork.motion.skeleton import Skeleton
 
 NO_BEHAVIOUR = -1
@@ -159,6 +161,11 @@ class MotionGraph:
         ends = np.flatnonzero(np.diff(self.edge_start) == 0)
         if ends.size:
             raise InputError(f"node {ends[0]} leads nowhere, expected at least one edge from every node", self.where)
+
+    @cached_property
+    def joint_places(self) -> NDArray[np.float64]:
+        """Places of the joints of every node in its planar frame, metres.  # (N, J, 3)"""
+        return frozen(forward(self.skeleton, self.root_position, self.rotations)[0], np.float64)
 
     @property
     def original(self) -> NDArray[np.bool_]:

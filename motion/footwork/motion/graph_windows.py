@@ -1,13 +1,10 @@
 """The windows of a graph's nodes: the frames round each along its natural edges, laid out as the metric has them."""
 
-from functools import cached_property
-
 import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.alignment import turn
 from footwork.motion.graph import MotionGraph
-from footwork.motion.kinematics import forward
 from footwork.motion.window import RADIUS
 
 NONE = -1
@@ -67,12 +64,7 @@ class GraphWindows:
 
         # (..., LENGTH) -> (..., LENGTH, J, 3)
         """
-        return laid(self.joints[windows], self.places(windows))
-
-    @cached_property
-    def joints(self) -> NDArray[np.float64]:
-        """Places of the joints of every node in its planar frame, metres.  # (N, J, 3)"""
-        return forward(self.graph.skeleton, self.graph.root_position, self.graph.rotations)[0]
+        return laid(self.graph.joint_places[windows], self.places(windows))
 
 
 def composed(place: NDArray, step: NDArray) -> NDArray[np.float64]:

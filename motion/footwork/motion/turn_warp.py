@@ -21,7 +21,6 @@ from footwork.motion.alignment import turn
 from footwork.motion.arrays import frozen
 from footwork.motion.graph import MotionGraph
 from footwork.motion.graph_windows import NONE, GraphWindows, composed
-from footwork.motion.kinematics import forward
 from footwork.motion.metric import UNIT
 from footwork.motion.window import RADIUS, window_weights
 
@@ -48,7 +47,7 @@ def turn_warp(graph: MotionGraph) -> TurnWarp:
 
     The frames after a node are those along natural edges; where there is none, the last is held.
     """
-    places = forward(graph.skeleton, graph.root_position, graph.rotations)[0][..., [0, 2]]  # (N, J, 2)
+    places = graph.joint_places[..., [0, 2]]  # (N, J, 2)
     moments = _moments_ahead(graph, _moments_of_poses(places))
     pivot = _pivots(places[:, graph.skeleton.feet[:, 1]], graph.contacts, moments[:, 1:3] / moments[:, :1])
     price = moments[:, 3] - 2.0 * (pivot * moments[:, 1:3]).sum(axis=-1) + moments[:, 0] * (pivot**2).sum(axis=-1)

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.graph import MotionGraph
-from footwork.motion.kinematics import forward
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.tick import TICK
 from footwork.runtime.inertialisation import decay_weights
@@ -52,7 +51,7 @@ def legs_of(skeleton: Skeleton) -> NDArray[np.int32]:
 
 def lowest_balls(graph: MotionGraph, legs: NDArray[np.int32]) -> float:
     """The least height of a ball in any frame of a graph, metres: the floor that no transition goes under."""
-    balls = forward(graph.skeleton, graph.root_position, graph.rotations)[0][:, legs[:, 3], 1]
+    balls = graph.joint_places[:, legs[:, 3], 1]
     return float(balls.min()) if balls.size else -math.inf
 
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from footwork.motion.alignment import turn
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
-from footwork.motion.kinematics import clip_places, forward
+from footwork.motion.kinematics import clip_places
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.tick import TICK
 
@@ -93,7 +93,7 @@ def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None, highest
     meant = graph.original if clips is None else graph.original & np.isin(graph.clip, clips)
     edges = np.flatnonzero(graph.natural & meant[graph.source] & meant[graph.target])
     source, target = graph.source[edges], graph.target[edges]
-    places = forward(graph.skeleton, graph.root_position, graph.rotations)[0]
+    places = graph.joint_places
     here = soles(graph.skeleton, places)
     standing = graph.contacts & (places[:, graph.skeleton.feet[:, 1], 1] <= highest)
     step = graph.displacement[edges].astype(np.float64)[:, None, None]

@@ -75,7 +75,7 @@ def pose_jumps(graph: MotionGraph, edges: NDArray[np.int64]) -> NDArray[np.float
     back = quaternion.from_rotation_vector(-TICK * graph.angular_velocity[target].astype(np.float64))
     came_from = forward(graph.skeleton, root, quaternion.multiply(back, graph.rotations[target]))[0]
     there = laid(came_from, graph.displacement[edges].astype(np.float64))
-    here = forward(graph.skeleton, graph.root_position[source], graph.rotations[source])[0]
+    here = graph.joint_places[source]
     return np.sqrt(np.mean(np.sum((here - there) ** 2, axis=-1), axis=-1))
 
 

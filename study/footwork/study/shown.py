@@ -66,9 +66,8 @@ def shown(
 
 def ground_of(graph: MotionGraph) -> float:
     """Height of a ball that stands: a low percentile over the captured frames, metres."""
-    frames = np.flatnonzero(graph.original)
-    places = forward(graph.skeleton, graph.root_position[frames], graph.rotations[frames])[0]
-    return float(np.percentile(places[:, graph.skeleton.feet[:, 1], 1], GROUND_PERCENTILE))
+    balls = graph.joint_places[graph.original][:, graph.skeleton.feet[:, 1], 1]
+    return float(np.percentile(balls, GROUND_PERCENTILE))
 
 
 def shown_report(parts: Sequence[Shown]) -> dict[str, Any]:

@@ -11,7 +11,6 @@ from footwork.motion.alignment import turn
 from footwork.motion.arrays import frozen
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
-from footwork.motion.kinematics import forward
 from footwork.motion.metric import PointCloudMetric
 from footwork.motion.mirror import mirrored
 from footwork.motion.task import BEHAVIOURS
@@ -88,6 +87,6 @@ def _places(graph: MotionGraph, edge: NDArray, first: NDArray) -> NDArray[np.flo
 
 def world_points(graph: MotionGraph, chains: Chains, joints: NDArray[np.intp] | slice) -> NDArray[np.float64]:
     """Joints of every node as seen from the first node of its stretch, metres.  # (N, joints, 3)"""
-    points = forward(graph.skeleton, graph.root_position, graph.rotations)[0][:, joints]
+    points = graph.joint_places[:, joints]
     x, z = turn(points[..., 0], points[..., 2], chains.place[:, 2:])
     return np.stack([x + chains.place[:, :1], points[..., 1], z + chains.place[:, 1:2]], axis=-1)
