@@ -166,6 +166,24 @@ def test_bad_slots_are_refused(slot):
         world.remove(slot)
 
 
+def test_a_teleport_leaves_nothing_behind_that_smooths():
+    path = [8, 9, 10, *range(FRAMES + 6, FRAMES + 9)]
+    moved, fresh = World(GRAPH, 1), World(GRAPH, 1)
+    moved.spawn(path[0], 5.0, 5.0, 1.0)
+    steps(moved, path)
+    with pytest.raises(NoSuchCharacter):
+        moved.teleport(1, 0.0, 0.0, 0.0)
+    with pytest.raises(WorldError, match="expected finite"):
+        moved.teleport(0, 0.0, np.nan, 0.0)
+    moved.teleport(0, 1.0, -2.0, 7.0)
+    fresh.spawn(path[-1], 1.0, -2.0, 7.0)
+    for way in (path[-1:], [path[-1], path[-1] + 1, path[-1] + 2]):
+        for world in (moved, fresh):
+            steps(world, way)
+        for shown, expected in zip(moved.show(0.5), fresh.show(0.5), strict=True):
+            np.testing.assert_array_equal(shown, expected)
+
+
 def test_bad_arguments_are_refused():
     world = World(GRAPH, 1)
     for place in [(np.nan, 0, 0), (0, np.inf, 0), (0, 0, -np.inf)]:

@@ -15,6 +15,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.alignment import turn as rotated
 from footwork.motion.graph import MotionGraph
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.tick import TICK
@@ -53,6 +54,22 @@ def lowest_balls(graph: MotionGraph, legs: NDArray[np.int32]) -> float:
     """The least height of a ball in any frame of a graph, metres: the floor that no transition goes under."""
     balls = graph.joint_places[:, legs[:, 3], 1]
     return float(balls.min()) if balls.size else -math.inf
+
+
+def move_locks(anchors: NDArray, slips: NDArray, old: NDArray, new: tuple[float, float, float]) -> None:
+    """Take one character's locks with it from a planar place (x, z, yaw) to another, in place.
+
+    Args:
+        anchors: its rows of ``anchor``.  # (feet, 4)
+        slips: its rows of ``slip``.  # (feet, 2, 3)
+        old: where it was.  # (3,)
+        new: where it is put.
+    """
+    turn = new[2] - old[2]
+    ahead = np.column_stack(rotated(anchors[:, 0] - old[0], anchors[:, 1] - old[1], turn))
+    anchors[:, :2] = ahead + new[:2]
+    anchors[:, 2:] = np.column_stack(rotated(anchors[:, 2], anchors[:, 3], turn))
+    slips[..., 0], slips[..., 1] = rotated(slips[..., 0], slips[..., 1], turn)
 
 
 @numba.njit(cache=True, nogil=True)

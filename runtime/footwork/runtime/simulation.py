@@ -132,6 +132,10 @@ class Simulation:
         """Move a character's root, metres and radians; its motion goes on from there."""
         self.world.correct(slot, x, z, yaw)
 
+    def teleport(self, slot: int, x: float, z: float, yaw: float) -> None:
+        """Put a character elsewhere, metres and radians; no offset and no foot lock goes along."""
+        self.world.teleport(slot, x, z, yaw)
+
     def give(self, slot: int, command: Command) -> None:
         """Put a command into force, from the next tick on."""
         shown = self.world.graph.behaviour[self.world.node[slot]]

@@ -5,38 +5,21 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.errors import FootworkError
-from footwork.motion.alignment import turn as rotated
 from footwork.motion.angle import wrapped_angle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
 from footwork.motion.tick import TICK
 from footwork.runtime import posing
-from footwork.runtime.foot_lock import legs_of, lowest_balls, update_locks
+from footwork.runtime.foot_lock import legs_of, lowest_balls, move_locks, update_locks
 from footwork.runtime.held_feet import hold_feet
 from footwork.runtime.inertialisation import decay, take_jumps, ticks_to_settle
 from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
 from footwork.runtime.moving import first_wrong_move, make_moves
 from footwork.runtime.rotation_kernels import turned
+from footwork.runtime.world_errors import NoSuchCharacter, WorldError, WorldFull, WrongMove
 
 HALFLIFE = 0.1
 """Half-life of what inertialisation adds, s (conventions.md 10)."""
-
-
-class WorldError(FootworkError):
-    """The world was asked for something that it cannot do."""
-
-
-class WorldFull(WorldError):  # noqa: N818  (it reads as what happened)
-    """A character was spawned where there is no room for another."""
-
-
-class NoSuchCharacter(WorldError):  # noqa: N818
-    """A slot was named that holds no character."""
-
-
-class WrongMove(WorldError):  # noqa: N818
-    """A character was told to take an edge that does not leave from its node, or to move where nothing is."""
 
 
 class World:
@@ -122,9 +105,13 @@ class World:
         self.node[slot] = node
         self.edge[slot], self.natural[slot] = LEAP, True
         self.place[slot] = x, z, wrapped_angle(yaw)
+        self._begin_smoothing(slot)
+        return slot
+
+    def _begin_smoothing(self, slot: int) -> None:
+        """Without offsets, glide or foot locks."""
         self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = self._glide[slot] = 0
         self._locked[slot] = self._slip[slot] = self._stride[slot] = 0
-        return slot
 
     def remove(self, slot: int) -> None:
         """Take a character out of the world.
@@ -137,7 +124,7 @@ class World:
         self.node[slot] = 0
 
     def correct(self, slot: int, x: float, z: float, yaw: float) -> None:
-        """Put a character somewhere else (a wall stopped it, a teleport); its motion goes on, turned with it.
+        """Put a character somewhere else (a wall stopped it); its motion goes on, turned with it.
 
         Raises:
             NoSuchCharacter: for a slot that holds none.
@@ -145,7 +132,7 @@ class World:
         """
         self._require(slot)
         _require_finite(x, z, yaw)
-        self._move_locks(slot, (x, z, yaw))
+        move_locks(self._anchor[slot], self._slip[slot], self.place[slot], (x, z, yaw))
         turn = yaw - self.place[slot, 2]
         self.place[slot] = x, z, wrapped_angle(yaw)
         # What these hold is given in the world: the root's offset and velocity, and those of joint 0.
@@ -153,14 +140,17 @@ class World:
         for vectors in (*self._roots[slot], joint[:VELOCITY], joint[VELOCITY:]):
             vectors[:] = turned(math.cos(turn), math.sin(turn), vectors)
 
-    def _move_locks(self, slot: int, place: tuple[float, float, float]) -> None:
-        """Take a character's foot locks with it from its place to another."""
-        old, turn = self.place[slot], place[2] - self.place[slot, 2]
-        anchors, slips = self._anchor[slot], self._slip[slot]
-        ahead = np.column_stack(rotated(anchors[:, 0] - old[0], anchors[:, 1] - old[1], turn))
-        anchors[:, :2] = ahead + place[:2]
-        anchors[:, 2:] = np.column_stack(rotated(anchors[:, 2], anchors[:, 3], turn))
-        slips[..., 0], slips[..., 1] = rotated(slips[..., 0], slips[..., 1], turn)
+    def teleport(self, slot: int, x: float, z: float, yaw: float) -> None:
+        """Put a character somewhere else as if it had always been there: what smooths its motion does not go along.
+
+        Raises:
+            NoSuchCharacter: for a slot that holds none.
+            WorldError: for a place that is not finite.
+        """
+        self._require(slot)
+        _require_finite(x, z, yaw)
+        self.place[slot] = x, z, wrapped_angle(yaw)
+        self._begin_smoothing(slot)
 
     def step(self, moves: Moves) -> None:
         """Advance every active character one tick by the move chosen for it.
@@ -284,7 +274,7 @@ class World:
             raise NoSuchCharacter(f"no character {slot}; there are {int(self.active.sum())}")
 
     def _raise_wrong_move(self, slot: int, moves: Moves) -> None:
-        node, edge, target = int(self.node[slot]), int(moves.edge[slot]), int(moves.target[slot])
+        node, edge, target = (int(array[slot]) for array in (self.node, moves.edge, moves.target))
         first, end = (int(self.graph.edge_start[node + step]) for step in (0, 1))
         if edge != LEAP and not first <= edge < end:
             raise WrongMove(f"character {slot} at node {node} was given edge {edge}, expected {first} to {end - 1}")
