@@ -78,6 +78,17 @@ def test_a_new_character_in_a_used_slot_remembers_nothing():
         np.testing.assert_array_equal(one[1], other[1])
 
 
+def test_a_character_that_is_left_alone_comes_to_stand():
+    simulation = Simulation(BUNDLE, 1)
+    slot = simulation.spawn(0.0, 0.0, 1.0, "walk")
+    simulation.give(slot, simulation.vocabulary.outright(1.0, "walk"))
+    run(simulation, 30)
+    assert SHOWN[simulation.behaviour[slot]] == "walk"
+    simulation.stand(slot)
+    run(simulation, 30)
+    assert SHOWN[simulation.behaviour[slot]] == "stop"
+
+
 def test_inertialisation_can_be_switched_off():
     shown = []
     for inertialise in (True, False):

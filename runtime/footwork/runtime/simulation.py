@@ -63,6 +63,8 @@ class Simulation:
         tick: the tick last made, from 0.
         behaviours: what commands may ask for: those that some frame shows.
         vocabulary: reads commands.
+        behaviour: what each slot's character does in this tick, an index into ``behaviours`` or -1.  # (capacity,)
+        transition: whether its step to this tick left the captured order.  # (capacity,) bool
 
     Raises:
         InputError: for a bundle without a converged steering table or without a frame of any behaviour.
@@ -85,6 +87,7 @@ class Simulation:
         self.behaviours = self._controller.present
         if not self.behaviours:
             raise InputError("no frame shows any behaviour, expected at least one", graph.where)
+        self._idle = _IDLE if _IDLE in self.behaviours else self.behaviours[0]
         self.vocabulary = Vocabulary(graph.behaviours, self.behaviours)
         self._orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
@@ -115,11 +118,10 @@ class Simulation:
         """
         if behaviour:
             self.vocabulary.index(behaviour)
-        idle = _IDLE if _IDLE in self.behaviours else self.behaviours[0]
-        start = behaviour or idle
+        start = behaviour or self._idle
         slot = self.world.spawn(self._start[start], x, z, yaw)
         self._controller.begin(slot)
-        self._orders.begin(slot, yaw, self.vocabulary.index(idle if start in ONE_SHOT else start))
+        self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in ONE_SHOT else start))
         self._who = np.flatnonzero(self.world.active)
         return slot
 
@@ -141,6 +143,10 @@ class Simulation:
         shown = self.world.graph.behaviour[self.world.node[slot]]
         self._orders.give(slot, command, int(shown))
 
+    def stand(self, slot: int) -> None:
+        """Let a character stop where it is, as far as the bundle lets it."""
+        self.give(slot, self.vocabulary.outright(self.world.place[slot, 2].item(), self._idle))
+
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
         world, who, orders = self.world, self._who, self._orders
@@ -156,9 +162,9 @@ class Simulation:
     def _note_actions(self) -> None:
         """What every character does in this tick; the same in all of its frames."""
         graph, node = self.world.graph, self.world.node
-        self._behaviour = self._shown_as[graph.behaviour[node]]
+        self.behaviour = self._shown_as[graph.behaviour[node]]
         self._clip, self._source_frame = self._clip_of[node], self._frame_of[node]
-        self._transition = ~self.world.natural
+        self.transition = ~self.world.natural
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
@@ -167,8 +173,8 @@ class Simulation:
             root=root,
             rotations=rotations,
             facing=self.world.place[:, 2],
-            behaviour=self._behaviour,
+            behaviour=self.behaviour,
             clip=self._clip,
             source_frame=self._source_frame,
-            transition=self._transition,
+            transition=self.transition,
         )
