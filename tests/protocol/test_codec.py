@@ -30,12 +30,20 @@ sign = st.integers(-1, 1)
 keys = st.builds(m.Keys, view_yaw=place, forward=sign, strafe=sign, run=st.booleans(), jump=st.booleans())
 moved = {"sequence": sequence, "character": character}
 from_clients = st.one_of(
-    st.builds(m.Hello, version=st.integers(0, 2**31 - 1), client=name),
+    st.builds(
+        m.Hello,
+        version=st.integers(0, 2**31 - 1),
+        client=name,
+        events=st.lists(name, max_size=2).map(tuple),
+        resume=st.binary(max_size=16),
+    ),
     st.builds(m.Spawn, **moved, x=place, z=place, yaw=place, behaviour=name),
     st.builds(m.Command, **moved, keys=keys, tick=counter),
     st.builds(m.Command, **moved, heading=place, behaviour=name, tick=counter),
     st.builds(m.Correct, **moved, x=place, z=place, yaw=place),
+    st.builds(m.Teleport, **moved, x=place, z=place, yaw=place),
     st.builds(m.Despawn, **moved),
+    st.builds(m.Step, ticks=st.integers(1, 30)),
     st.builds(m.Ping, nonce=counter),
     st.builds(m.Bye, reason=name),
 )
@@ -54,6 +62,7 @@ from_servers = st.one_of(
         transition=st.booleans(),
         root=st.binary(min_size=12, max_size=12),
         rotations=st.integers(1, 31).flatmap(lambda joints: st.binary(min_size=16 * joints, max_size=16 * joints)),
+        lost=counter,
     ),
     st.builds(
         m.Welcome,
@@ -67,9 +76,15 @@ from_servers = st.one_of(
         ends=st.lists(offset, max_size=3).map(tuple),
         behaviours=st.lists(name, max_size=3).map(tuple),
         clips=st.lists(name, max_size=3).map(tuple),
+        lockstep=st.booleans(),
+        token=st.binary(max_size=16),
+        resumed=st.booleans(),
+        sequence=counter,
+        spawned=st.lists(character, max_size=3).map(tuple),
     ),
-    st.builds(m.Event, tick=counter, kind=name, character=character, sequence=counter),
+    st.builds(m.Event, tick=counter, kind=name, character=character, sequence=counter, behaviour=index),
     st.builds(m.Error, code=name, message=name, sequence=counter, valid=st.lists(name, max_size=3).map(tuple)),
+    st.builds(m.Stepped, tick=counter),
     st.builds(m.Pong, nonce=counter, tick=counter),
 )
 
@@ -105,6 +120,7 @@ def test_a_pose_of_31_joints_fits_one_packet():
         transition=True,
         root=bytes(12),
         rotations=bytes(31 * 16),
+        lost=most,
     )
     assert len(encode_checked(pose)) <= 1200
 
@@ -125,7 +141,7 @@ BAD = {
     "a number": msgpack.packb(7),
     "an array": msgpack.packb([1, 2]),
     "no type": raw(version=1),
-    "unknown type": raw(type="teleport"),
+    "unknown type": raw(type="fly"),
     "a server's message": raw(type="pong", nonce=1, tick=1),
     "type is no word": raw(type=3),
     "trailing bytes": raw(type="ping") + b"\x00",
@@ -155,6 +171,11 @@ BAD = {
     "keys and heading": raw(
         type="command", sequence=1, character=0, keys={"view_yaw": 0}, heading=0.0, behaviour="walk"
     ),
+    "no ticks": raw(type="step", ticks=0),
+    "too many ticks": raw(type="step", ticks=31),
+    "too many kinds of events": raw(type="hello", version=1, events=["x"] * 17),
+    "a token that is too long": raw(type="hello", version=1, resume=bytes(17)),
+    "a token that is text": raw(type="hello", version=1, resume="x"),
     "a type that changes": b"\x82\xa4type\xa4ping\xa4type\xa3bye",
 }
 

@@ -33,8 +33,12 @@ def rows(text: str) -> list[list[str]]:
     return [[cell.strip() for cell in line.split("|")] for line in lines]
 
 
-def transcript() -> list[tuple[str, str, bytes]]:
-    block = SPEC.split("```transcript\n", 1)[1].split("```", 1)[0]
+def transcripts() -> list[list[tuple[str, str, bytes]]]:
+    blocks = [rest.split("```", 1)[0] for rest in SPEC.split("```transcript\n")[1:]]
+    return [entries_of(block) for block in blocks]
+
+
+def entries_of(block: str) -> list[tuple[str, str, bytes]]:
     entries = re.findall(r"^([CS]) (\w+)\n((?:  [0-9a-f]+\n)+)", block, flags=re.MULTILINE)
     assert len(entries) == sum(line[0] in "CS" for line in block.splitlines())
     return [(sender, name, bytes.fromhex(digits)) for sender, name, digits in entries]
@@ -42,7 +46,8 @@ def transcript() -> list[tuple[str, str, bytes]]:
 
 @pytest.mark.parametrize("name", MESSAGES)
 def test_every_field_of_every_message_is_listed_in_order(name):
-    fields = [row[0] for row in rows(section(name)) if row[0] not in ("field", "---")]
+    table = re.split(r"\n\n(?=\| kind)", section(name))[0]
+    fields = [row[0] for row in rows(table) if row[0] not in ("field", "---")]
     keys = list(m.Keys.__struct_fields__) if name == "command" else []
     assert fields == [*MESSAGES[name].__struct_fields__, *keys]
 
@@ -68,9 +73,10 @@ def test_version_and_sizes_are_the_codes():
     assert f"from it at most {SERVER_MESSAGE_BYTES:,}" in SPEC
 
 
-def test_the_transcript_encodes_to_the_same_bytes_and_keeps_to_the_states():
+@pytest.mark.parametrize("transcript", transcripts())
+def test_a_transcript_encodes_to_the_same_bytes_and_keeps_to_the_states(transcript):
     client, server = Connection(Role.CLIENT), Connection(Role.SERVER)
-    for sender, name, data in transcript():
+    for sender, name, data in transcript:
         message = decode_from_client(data) if sender == "C" else decode_from_server(data)
         assert isinstance(message, MESSAGES[name])
         assert encode(message) == data
@@ -79,8 +85,13 @@ def test_the_transcript_encodes_to_the_same_bytes_and_keeps_to_the_states():
     assert client.state is server.state is State.CLOSED
 
 
-def test_the_transcript_shows_every_message():
-    assert {name for _, name, _ in transcript()} == set(MESSAGES)
+def test_the_transcripts_show_every_message():
+    assert {name for transcript in transcripts() for _, name, _ in transcript} == set(MESSAGES)
+
+
+def test_the_kinds_of_events_that_a_client_asks_for_are_listed():
+    kinds = [row for row in rows(section("event")) if row[-1] and row[1].startswith("if hello asks")]
+    assert tuple(row[0] for row in kinds) == m.EVENTS
 
 
 def reordered(formula: str, values: np.ndarray) -> np.ndarray:

@@ -15,6 +15,8 @@ CHARACTERS = "characters"
 CHARACTER_TAKEN = "character_taken"
 CHARACTER_UNKNOWN = "character_unknown"
 BEHAVIOUR = "behaviour"
+LOCK_STEP = "lock_step"
+RESUME = "resume"
 
 CODES = {
     MALFORMED: "the bytes are no message of this protocol, or a field is out of bounds",
@@ -30,6 +32,8 @@ CODES = {
     CHARACTER_TAKEN: "the session has a character of this number already",
     CHARACTER_UNKNOWN: "the session has no character of this number",
     BEHAVIOUR: "the bundle has no such behaviour; ``valid`` lists those it has",
+    LOCK_STEP: "a step where the server has a clock of its own, or while the session's last one is not answered",
+    RESUME: "no session waits for this token; the session is closed, say hello without it",
 }
 
 
