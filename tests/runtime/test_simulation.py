@@ -121,5 +121,5 @@ def test_the_world_lives_on_the_graph_of_its_controller():
 
 
 def test_feet_are_held_unless_told_otherwise():
-    assert Simulation(BUNDLE, 1).world.foot_lock
-    assert not Simulation(BUNDLE, 1, foot_lock=False).world.foot_lock
+    assert Simulation(BUNDLE, 1).world.smoothing.foot_lock
+    assert not Simulation(BUNDLE, 1, foot_lock=False).world.smoothing.foot_lock

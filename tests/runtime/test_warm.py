@@ -5,14 +5,14 @@ from footwork.controllers import steering
 from footwork.controllers.controller import Situations
 from footwork.motion import lookahead
 from footwork.motion.moves import no_moves
-from footwork.runtime import foot_lock, held_feet, inertialisation, leg_kernels, moving, posing, world
+from footwork.runtime import foot_lock, held_feet, inertialisation, leg_kernels, moving, posing, ticking, world
 from footwork.runtime.warm import warm_kernels
 from toy_bundle import toy_bundle
 
 
 def kernels() -> dict[Dispatcher, list]:
     """What each kernel of a tick is compiled for, those that only other kernels call among them."""
-    modules = (steering, lookahead, moving, foot_lock, held_feet, leg_kernels, inertialisation, posing)
+    modules = (steering, lookahead, moving, foot_lock, held_feet, leg_kernels, inertialisation, posing, ticking)
     found = [value for module in modules for value in vars(module).values() if isinstance(value, Dispatcher)]
     return {kernel: list(kernel.signatures) for kernel in found}
 
@@ -22,8 +22,8 @@ def test_a_tick_after_warming_compiles_nothing():
     graph, table = bundle.graph, bundle.tables["steering"]
     warm_kernels(steering.SteeringController(graph, table))
     before = kernels()
-    assert before[posing.pose]
-    assert before[held_feet.hold_feet]
+    assert before[ticking.make_moves]
+    assert before[ticking.show_characters]
     characters, controller = world.World(graph, 3), steering.SteeringController(graph, table)
     for slot in range(3):
         characters.spawn(controller.start_node(), float(slot), 0.0, 0.0)

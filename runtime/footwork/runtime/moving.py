@@ -14,7 +14,7 @@ _SMALL = 1e-4  # rad: below it series are good to float64
 
 @numba.njit(cache=True, nogil=True)
 def first_wrong_move(
-    active: NDArray,
+    slots: NDArray,
     node: NDArray,
     edge: NDArray,
     target: NDArray,
@@ -23,10 +23,8 @@ def first_wrong_move(
     edge_start: NDArray,
     graph_target: NDArray,
 ) -> int:
-    """The first active row whose move cannot be made, -1 for none; the arguments are those of Moves and the graph."""
-    for who in range(active.shape[0]):
-        if not active[who]:
-            continue
+    """The first of the rows ``slots`` whose move cannot be made, -1 for none; the rest is of Moves and the graph."""
+    for who in slots:
         if not 0 <= target[who] < edge_start.shape[0] - 1:
             return who
         taken = edge[who]
@@ -41,32 +39,18 @@ def first_wrong_move(
 
 
 @numba.njit(cache=True, nogil=True)
-def make_moves(
-    active: NDArray,
-    target: NDArray,
-    displacement: NDArray,
-    adjustment: NDArray,
-    node: NDArray,
-    place: NDArray,
-    glide: NDArray,
-) -> None:
-    """Make the moves of all active characters, in place; yaw is kept within -pi..pi.
+def move_place(place: NDArray, displacement: NDArray, adjustment: NDArray, glide: NDArray) -> None:
+    """Take one character's place through its move, in place; yaw is kept within -pi..pi.
 
     Args:
-        active: which rows are characters.  # (C,)
-        target: of the moves.  # (C,)
-        displacement: of the moves.  # (C, 3)
-        adjustment: of the moves.  # (C, 3)
-        node: where each is.  # (C,)
-        place: planar places (x, z, yaw).  # (C, 3)
-        glide: the even planar motion that makes up the adjustment over the tick, m and rad a tick.  # (C, 3)
+        place: its planar place (x, z, yaw).  # (3,)
+        displacement: of its move.  # (3,)
+        adjustment: of its move.  # (3,)
+        glide: written: the even planar motion that makes up the adjustment over the tick, m and rad a tick.  # (3,)
     """
-    for who in range(active.shape[0]):
-        if active[who]:
-            _carry(place[who], displacement[who])
-            _carry(place[who], adjustment[who])
-            glide[who, 0], glide[who, 1], glide[who, 2] = glide_of(adjustment[who])
-            node[who] = target[who]
+    _carry(place, displacement)
+    _carry(place, adjustment)
+    glide[0], glide[1], glide[2] = glide_of(adjustment)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -8,14 +8,11 @@ from numpy.typing import NDArray
 from footwork.motion.angle import wrapped_angle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
-from footwork.motion.tick import TICK
-from footwork.runtime import posing
-from footwork.runtime.foot_lock import legs_of, lowest_balls, move_locks, update_locks
-from footwork.runtime.held_feet import hold_feet
-from footwork.runtime.inertialisation import decay, take_jumps, ticks_to_settle
-from footwork.runtime.motion_rows import VELOCITY, node_rows, offset_rows
-from footwork.runtime.moving import first_wrong_move, make_moves
+from footwork.runtime.characters import motion_of, no_characters, smoothing
+from footwork.runtime.foot_lock import move_locks
+from footwork.runtime.motion_rows import VELOCITY
 from footwork.runtime.rotation_kernels import turned
+from footwork.runtime.ticking import make_moves, show_characters
 from footwork.runtime.world_errors import NoSuchCharacter, WorldError, WorldFull, WrongMove
 
 HALFLIFE = 0.1
@@ -37,6 +34,10 @@ class World:
 
     Attributes:
         active: which slots hold a character.  # (capacity,) bool
+        slots: those slots, in order.  # (n,)
+        characters: all that is remembered of them.
+        motion: what they move on.
+        smoothing: how they are shown.
         node: where each is on the graph.  # (capacity,) int32
         place: planar place (x, z, yaw), metres and radians, yaw within -pi..pi.  # (capacity, 3) float64
         edge: the edge last taken, ``LEAP`` where it was none.  # (capacity,) int32
@@ -62,31 +63,15 @@ class World:
         joints = graph.skeleton.joint_count
         self.graph = graph
         self.capacity = capacity
-        self.inertialise = inertialise
-        self.foot_lock = foot_lock
-        self.halflife = halflife
         self.active = np.zeros(capacity, dtype=np.bool_)
-        self.node = np.zeros(capacity, dtype=np.int32)
-        self.place = np.zeros((capacity, 3))
-        self.edge = np.full(capacity, LEAP, dtype=np.int32)
-        self.natural = np.ones(capacity, dtype=np.bool_)
-        self._offsets = offset_rows(capacity, joints)
-        self._roots = np.zeros((capacity, 2, 3))
-        self._ticks_left = np.zeros(capacity, dtype=np.int32)
-        self._settle_ticks = ticks_to_settle(halflife)
-        self._glide = np.zeros_like(self.place)
-        self._old_node = np.zeros_like(self.node)
-        self._old_place = np.zeros_like(self.place)
+        self.slots = np.flatnonzero(self.active)
+        self.motion = motion_of(graph)
+        self.smoothing = smoothing(inertialise, foot_lock, halflife)
+        self.characters = no_characters(capacity, joints, len(self.motion.legs))
+        self.node, self.place = self.characters.node, self.characters.place
+        self.edge, self.natural = self.characters.edge, self.characters.natural
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
         self._shown_rotations = np.zeros((capacity, joints, 4), dtype=np.float32)
-        self._legs = legs_of(graph.skeleton)
-        self._spans = np.linalg.norm(graph.skeleton.offsets[self._legs[:, 1:3]], axis=-1)
-        self._floor = lowest_balls(graph, self._legs)
-        self._locked = np.zeros((capacity, len(self._legs)), dtype=np.bool_)
-        self._anchor = np.zeros((*self._locked.shape, 4))
-        self._slip = np.zeros((*self._locked.shape, 2, 3))
-        self._stride = np.zeros(self._locked.shape, dtype=np.int32)
-        self._motion = (graph.root_position, graph.root_velocity, node_rows(graph))
 
     def spawn(self, node: int, x: float, z: float, yaw: float) -> int:
         """Put a new character on a node at a planar place; its slot is the lowest free one.
@@ -102,6 +87,7 @@ class World:
         if self.active[slot]:
             raise WorldFull(f"all {self.capacity} characters are taken; remove one first")
         self.active[slot] = True
+        self.slots = np.flatnonzero(self.active)
         self.node[slot] = node
         self.edge[slot], self.natural[slot] = LEAP, True
         self.place[slot] = x, z, wrapped_angle(yaw)
@@ -110,8 +96,9 @@ class World:
 
     def _begin_smoothing(self, slot: int) -> None:
         """Without offsets, glide or foot locks."""
-        self._offsets[slot] = self._roots[slot] = self._ticks_left[slot] = self._glide[slot] = 0
-        self._locked[slot] = self._slip[slot] = self._stride[slot] = 0
+        one = self.characters
+        for array in (one.glide, one.ticks_left, one.offsets, one.roots, one.locked, one.anchor, one.slip, one.stride):
+            array[slot] = 0
 
     def remove(self, slot: int) -> None:
         """Take a character out of the world.
@@ -121,6 +108,7 @@ class World:
         """
         self._require(slot)
         self.active[slot] = False
+        self.slots = np.flatnonzero(self.active)
         self.node[slot] = 0
 
     def correct(self, slot: int, x: float, z: float, yaw: float) -> None:
@@ -132,12 +120,12 @@ class World:
         """
         self._require(slot)
         _require_finite(x, z, yaw)
-        move_locks(self._anchor[slot], self._slip[slot], self.place[slot], (x, z, yaw))
+        move_locks(self.characters.anchor[slot], self.characters.slip[slot], self.place[slot], (x, z, yaw))
         turn = yaw - self.place[slot, 2]
         self.place[slot] = x, z, wrapped_angle(yaw)
         # What these hold is given in the world: the root's offset and velocity, and those of joint 0.
-        joint = self._offsets[slot, :, 0]
-        for vectors in (*self._roots[slot], joint[:VELOCITY], joint[VELOCITY:]):
+        joint = self.characters.offsets[slot, :, 0]
+        for vectors in (*self.characters.roots[slot], joint[:VELOCITY], joint[VELOCITY:]):
             vectors[:] = turned(math.cos(turn), math.sin(turn), vectors)
 
     def teleport(self, slot: int, x: float, z: float, yaw: float) -> None:
@@ -162,67 +150,19 @@ class World:
             WrongMove: when an edge does not leave from its character's node or lead to its target, and for a target
                 or a place that is none; nobody has moved then.
         """
-        graph = self.graph
-        wrong = first_wrong_move(
-            self.active,
-            self.node,
+        wrong = make_moves(
+            self.slots,
             moves.edge,
             moves.target,
             moves.displacement,
             moves.adjustment,
-            graph.edge_start,
-            graph.target,
+            moves.natural,
+            self.characters,
+            self.motion,
+            self.smoothing,
         )
         if wrong >= 0:
             self._raise_wrong_move(wrong, moves)
-        if self.foot_lock:
-            self._renew_locks(moves)
-        self._old_node[:] = self.node
-        self._old_place[:] = self.place
-        make_moves(self.active, moves.target, moves.displacement, moves.adjustment, self.node, self.place, self._glide)
-        self.edge[:], self.natural[:] = moves.edge, moves.natural
-        if self.inertialise:
-            self._carry_over()
-
-    def _renew_locks(self, moves: Moves) -> None:
-        """Keep, take and release foot locks as the tick ends."""
-        update_locks(
-            self.active,
-            self.node,
-            moves.target,
-            self.place,
-            self.graph.contacts,
-            self.halflife,
-            self._motion[0],
-            self._motion[2],
-            self._offsets,
-            self._roots,
-            self._legs,
-            self.graph.skeleton.offsets,
-            self._floor,
-            self._locked,
-            self._anchor,
-            self._slip,
-            self._stride,
-        )
-
-    def _carry_over(self) -> None:
-        """Let the offsets decay over the tick that ended, then take the jumps of transitions into them."""
-        decay(self._ticks_left, self._offsets, self._roots, TICK, self.halflife)
-        take_jumps(
-            self._settle_ticks,
-            self._ticks_left,
-            self.active,
-            self.natural,
-            self._old_node,
-            self._old_place,
-            self.node,
-            self.place,
-            self._glide,
-            *self._motion,
-            self._offsets,
-            self._roots,
-        )
 
     def show(self, fraction: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """The poses at a fraction of the tick in (0, 1]: 1 is the node itself, near 0 where the last tick ended.
@@ -236,38 +176,9 @@ class World:
         """
         if not 0.0 < fraction <= 1.0:
             raise WorldError(f"fraction is {fraction}, expected above 0 and at most 1")
-        posing.pose(
-            self.active,
-            self.node,
-            self.place,
-            self._glide,
-            fraction,
-            self.halflife,
-            *self._motion,
-            self._offsets,
-            self._roots,
-            self._shown_root,
-            self._shown_rotations,
-        )
-        if self.foot_lock:
-            self._hold_feet(fraction)
-        return self._shown_root, self._shown_rotations
-
-    def _hold_feet(self, fraction: float) -> None:
-        hold_feet(
-            self.active,
-            fraction,
-            self._legs,
-            self.graph.skeleton.offsets,
-            self._spans,
-            self._floor,
-            self._locked,
-            self._anchor,
-            self._slip,
-            self._stride,
-            self._shown_root,
-            self._shown_rotations,
-        )
+        shown = self._shown_root, self._shown_rotations
+        show_characters(self.slots, fraction, self.characters, self.motion, self.smoothing, *shown)
+        return shown
 
     def _require(self, slot: int) -> None:
         if not (0 <= slot < self.capacity and self.active[slot]):
