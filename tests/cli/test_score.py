@@ -64,7 +64,7 @@ def scored(capsys, *arguments: object) -> dict:
     "options",
     [
         (),
-        ("--controller", "table", "--no-exact-facing"),
+        ("--controller", "table", "--no-exact-facing", "--no-shortlist"),
         ("--controller", "greedy", "--no-inertialise"),
         ("--controller", "oracle", "--no-foot-lock"),
         ("--controller", "oracle", "--foresight", "0.5"),
@@ -122,6 +122,7 @@ def test_a_policy_that_knows_nobody_needs_no_leaving_out(capsys, bundle, traces)
         (("--controller", "oracle", "--form", "strong"), "--form: means nothing for --controller oracle"),
         (("--controller", "motion-matching", "--form", "odd"), "--form: 'odd' is none, there is reference, strong"),
         (("--controller", "greedy", "--no-exact-facing"), "--no-exact-facing: means nothing for --controller greedy"),
+        (("--controller", "oracle", "--no-shortlist"), "--no-shortlist: means nothing for --controller oracle"),
         (("--motions", "captures"), "--motions: means nothing for --controller table, only for motion-matching"),
         (("--labels", "labels.csv"), "--labels, --ranges, --table, --bvh-unit: no motions to read"),
         (("--controller", "motion-matching", "--motions", "embedded:x"), "there are locomotion, fighting"),

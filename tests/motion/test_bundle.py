@@ -14,7 +14,7 @@ from footwork.motion.bundle import VERSION, Bundle, decode_bundle, encode_bundle
 from footwork.motion.coded_values import exact
 from footwork.motion.graph import ARRAYS
 from footwork.motion.player_model import PlayerModel, TraceFile
-from footwork.motion.table import PolicyTable
+from footwork.motion.table import PolicyTable, shortlisted
 from footwork.motion.task import SteeringTask
 from motion_samples import ring_graph
 
@@ -90,6 +90,37 @@ def test_a_policy_in_sixteen_bits_reads_as_it_was_written(tmp_path):
         np.testing.assert_array_equal(mine, other)
     assert read.coded.codes.dtype == np.uint16
     np.testing.assert_allclose(read.values, bundle.table("steering").values, atol=1e-5)
+
+
+def test_a_shortlist_reads_as_it_was_written_and_may_be_left_out(tmp_path):
+    table = listed_table(np.zeros((5, 2, TASK.heading_bins), np.uint8))
+    write_bundle(tmp_path / "b.footwork", replace(sample_bundle(), tables={"steering": table}))
+    read = read_bundle(tmp_path / "b.footwork").table("steering")
+    np.testing.assert_array_equal(read.shortlist, table.shortlist)
+    assert read.nbytes == read.unlisted.nbytes + read.shortlist.nbytes
+    assert read.unlisted.shortlist.shape == (5, 2, 0)
+
+
+def listed_table(shortlist) -> PolicyTable:
+    return replace(sample_bundle().table("steering"), shortlist=shortlist)
+
+
+def test_a_shortlist_that_does_not_fit_is_refused():
+    states = 5, 2, TASK.heading_bins
+    with pytest.raises(InputError, match="the shortlist holds int32, expected one of uint8, uint16"):
+        listed_table(np.zeros(states, np.int32))
+    with pytest.raises(InputError, match="shortlist"):
+        listed_table(np.zeros((5, 2, 3), np.uint8))
+    beyond = listed_table(np.full(states, 1, np.uint8))  # a node of the ring has one edge
+    with pytest.raises(InputError, match="its shortlist names actions that are not there"):
+        replace(sample_bundle(), tables={"steering": beyond})
+
+
+@pytest.mark.parametrize(("most", "kind", "kept"), [(255, np.uint8, 2), (256, np.uint16, 2), (65536, np.uint8, 0)])
+def test_a_shortlist_takes_as_few_bits_as_hold_it(most, kind, kept):
+    best = np.array([[[0, most]]], np.int32)
+    assert shortlisted(best).dtype == kind
+    np.testing.assert_array_equal(shortlisted(best), best[..., :kept])
 
 
 def test_a_mapped_bundle_is_the_same_and_outlives_its_file(tmp_path):

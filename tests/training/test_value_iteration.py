@@ -60,12 +60,14 @@ def test_values_of_other_graphs_too(seed):
 
 @pytest.mark.parametrize("name", ["product", "warped sum"])
 @pytest.mark.parametrize("player", PLAYERS)
-def test_the_tables_greedy_policy_is_the_exact_one(name, player):
+@pytest.mark.parametrize("listed", [True, False])
+def test_the_tables_greedy_policy_is_the_exact_one(name, player, listed):
     task, model = TASKS[name], PLAYERS[player]
     graph = random_steering_graph(11, nodes=6, degree=3)
     exact = ExactSteering(graph, task, model)
     worth = exact.action_values(exact.solved())
-    controller = SteeringController(graph, solve(graph, task, player=model, tolerance=1e-6), exact_facing=False)
+    table = solve(graph, task, player=model, tolerance=1e-6)
+    controller = SteeringController(graph, table if listed else table.unlisted, exact_facing=False)
     states = np.array(list(np.ndindex(*exact.shape)))
     edge, turn = chosen(controller, states[:, 0], states[:, 1], task.headings[states[:, 2]])
     number = {(e, round(t, 9)): action for action, (e, t) in enumerate(exact.choices())}
@@ -76,6 +78,32 @@ def test_the_tables_greedy_policy_is_the_exact_one(name, player):
     alone = (worth > best - 1e-4).sum(axis=0) == 1  # where nothing comes near, there is no question of ties
     assert alone.mean() > 0.5
     np.testing.assert_array_equal(np.reshape(actions, exact.shape)[alone], worth.argmax(axis=0)[alone])
+
+
+def test_between_tabulated_headings_the_better_of_the_two_best_actions_is_taken():
+    task, graph = TASKS["warped sum"], random_steering_graph(12, nodes=8, degree=4)
+    exact, table = ExactSteering(graph, task), solve(graph, task, tolerance=1e-6)
+    rng, count = np.random.default_rng(3), 60
+    node, wanted = rng.integers(0, 8, count), rng.integers(0, 2, count)
+    heading = rng.uniform(-math.pi, math.pi, count)
+    edge, turn = chosen(SteeringController(graph, table, exact_facing=False), node, wanted, heading)
+    low = np.floor((heading + math.pi) / (2 * math.pi) * task.heading_bins).astype(int)
+    for who in range(count):
+        worth = []
+        for place in (low[who], (low[who] + 1) % task.heading_bins):
+            first = graph.edge_start[node[who]] * len(task.turn_levels)
+            number = first + table.shortlist[node[who], wanted[who], place]
+            worth.append(worth_between(exact, table, *exact.choices()[number], wanted[who], heading[who]))
+        taken = worth_between(exact, table, edge[who], turn[who], wanted[who], heading[who])
+        assert taken == pytest.approx(max(worth), abs=1e-5)
+
+
+def worth_between(exact, table, edge, turn, wanted, heading):
+    """What an action is worth at any heading, values interpolated."""
+    after = heading - float(exact.graph.displacement[edge, 2]) - turn
+    row = table.values[exact.graph.target[edge], wanted]
+    ahead = np.interp(after, table.task.headings, row, period=2 * math.pi)
+    return exact.rewards(edge, turn, wanted, np.array([heading]))[0] + table.task.discount * ahead
 
 
 def chosen(controller, node, wanted, heading):

@@ -34,6 +34,7 @@ class Choice:
         motions: The capture that motion matching plays, as for build; the frames of the bundle's graph where not given.
         exact_facing: Turn right onto the heading where that is within the bundle's warp; --no-exact-facing keeps to the
             turns that the policy was solved with.
+        shortlist: Look only at the best actions of the nearest headings; --no-shortlist looks at all and takes longer.
         leave_one_out: Score each trace by a policy whose player model learned from all the others.
     """
 
@@ -42,6 +43,7 @@ class Choice:
     form: str | None = None
     motions: str | None = None
     exact_facing: bool = True
+    shortlist: bool = True
     leave_one_out: Annotated[bool, Parameter(negative=())] = False
 
     def __post_init__(self) -> None:
@@ -52,6 +54,7 @@ class Choice:
         self._only(self.form is not None, MATCHING, "--form")
         self._only(self.motions is not None, MATCHING, "--motions")
         self._only(not self.exact_facing, TABLE, "--no-exact-facing")
+        self._only(not self.shortlist, TABLE, "--no-shortlist")
         self._only(self.leave_one_out, TABLE, "--leave-one-out")
 
     def _only(self, given: bool, controller: str, option: str) -> None:
@@ -92,6 +95,7 @@ class Choice:
         """The controller that plays a policy of its own."""
         from footwork.controllers.steering import SteeringController
 
+        table = table if self.shortlist else table.unlisted
         return SteeringController(graph, table, exact_facing=self.exact_facing)
 
     def _table(self, bundle: Bundle) -> Contender:

@@ -9,7 +9,7 @@ from footwork.errors import FootworkError, InputError
 from footwork.motion.actions import Actions, actions_of, onward_edges
 from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import MotionGraph
-from footwork.motion.lookahead import best_action
+from footwork.motion.lookahead import best_action, best_listed_action
 from footwork.motion.moves import Moves, along_edges
 from footwork.motion.table import PolicyTable
 from footwork.motion.turn_warp import turn_about, turn_warp
@@ -32,6 +32,7 @@ def first_outside(index: NDArray, length: int) -> int:
 def decide(
     actions: Actions,
     coded: CodedValues,
+    shortlist: NDArray,
     onward: NDArray,
     segment_ticks: int,
     exact: bool,
@@ -49,6 +50,7 @@ def decide(
     Args:
         actions: of the graph and the task.
         coded: PolicyTable.coded.
+        shortlist: PolicyTable.shortlist.  # (N, B, H) or (N, B, 0)
         onward: ``onward_edges``.  # (N,)
         segment_ticks: SteeringTask.segment_ticks.
         exact: whether turns may lie between the levels.
@@ -57,6 +59,7 @@ def decide(
         edge: the result.  # (C,) int32
         turn: the result, radians.  # (C,)
     """
+    # Compiled code counts references at each look into a tuple of arrays, so it looks once.
     edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
     codes, lowest, step = coded
     for who in range(node.shape[0]):
@@ -66,27 +69,50 @@ def decide(
         else:
             held[slot[who]] = segment_ticks - 1
             left = heading[who] - place[who, 2]
-            found = best_action(
-                edge_start,
-                target,
-                yaw,
-                smoothness,
-                shown,
-                turn_limit,
-                price,
-                level,
-                turn_smoothness,
-                headed,
-                rules,
-                codes,
-                lowest,
-                step,
-                node[who],
-                behaviour[who],
-                left,
-                exact,
-            )
-            edge[who], turn[who] = found[1], found[2]
+            if shortlist.shape[2]:
+                edge[who], turn[who] = best_listed_action(
+                    edge_start,
+                    target,
+                    yaw,
+                    smoothness,
+                    shown,
+                    turn_limit,
+                    price,
+                    level,
+                    turn_smoothness,
+                    headed,
+                    rules,
+                    codes,
+                    lowest,
+                    step,
+                    shortlist,
+                    node[who],
+                    behaviour[who],
+                    left,
+                    exact,
+                )
+            else:
+                found = best_action(
+                    edge_start,
+                    target,
+                    yaw,
+                    smoothness,
+                    shown,
+                    turn_limit,
+                    price,
+                    level,
+                    turn_smoothness,
+                    headed,
+                    rules,
+                    codes,
+                    lowest,
+                    step,
+                    node[who],
+                    behaviour[who],
+                    left,
+                    exact,
+                )
+                edge[who], turn[who] = found[1], found[2]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -144,7 +170,7 @@ class SteeringController:
     @property
     def table_bytes(self) -> int:
         """The size of what it looks things up in."""
-        return self.table.coded.nbytes
+        return self.table.nbytes
 
     def begin(self, slot: int) -> None:
         """Decide anew at the next tick."""
@@ -165,6 +191,7 @@ class SteeringController:
         decide(
             self._actions,
             self.table.coded,
+            self.table.shortlist,
             self._onward,
             self.table.task.segment_ticks,
             self.exact_facing,

@@ -16,7 +16,7 @@ from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import ARRAYS, MotionGraph
 from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.skeleton import Skeleton
-from footwork.motion.table import PolicyTable
+from footwork.motion.table import SHORTLIST_KINDS, PolicyTable
 from footwork.motion.task import SteeringTask
 
 VERSION = 3
@@ -72,6 +72,9 @@ class Bundle:
         if table.task.behaviours != graph.behaviours:
             problem = f"behaviours {', '.join(table.task.behaviours)}, the graph has {', '.join(graph.behaviours)}"
             raise InputError(problem, table.where)
+        actions = len(table.task.turn_levels) * np.diff(graph.edge_start)
+        if table.shortlist.size and (table.shortlist.max(axis=(1, 2)) >= actions).any():
+            raise InputError("its shortlist names actions that are not there", table.where)
 
     def table(self, name: str) -> PolicyTable:
         """The policy called ``name``.
@@ -176,7 +179,8 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
 
 def _table_arrays(name: str, table: PolicyTable) -> dict[str, NDArray]:
     player = {} if table.player is None else {f"player.{name}": table.player.change}
-    return {f"table.{name}.{part}": array for part, array in table.coded._asdict().items()} | player
+    parts = table.coded._asdict() | ({"shortlist": table.shortlist} if table.shortlist.size else {})
+    return {f"table.{name}.{part}": array for part, array in parts.items()} | player
 
 
 def _about_table(table: PolicyTable) -> _Table:
@@ -196,6 +200,9 @@ def _take(arrays: Mapping[str, NDArray], name: str, kinds: DTypeLike | tuple, wh
 
 def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PolicyTable:
     coded = CodedValues(*(_take(arrays, f"table.{name}.{part}", kind, where) for part, kind in _CODED.items()))
+    listed = {}
+    if f"table.{name}.shortlist" in arrays:
+        listed["shortlist"] = _take(arrays, f"table.{name}.shortlist", SHORTLIST_KINDS, where)
     if not math.isfinite(about.residual):
         raise InputError(f"table {name!r} has a residual of {about.residual}, expected a finite number", where)
     return PolicyTable(
@@ -205,6 +212,7 @@ def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) 
         about.sweeps,
         about.converged,
         _player(about, arrays, name, where),
+        **listed,
         where=f"{where}: table {name!r}",
     ).require_converged()
 

@@ -16,14 +16,18 @@ from footwork.motion.angle import wrapped_angle
 
 
 @numba.njit(cache=True, nogil=True)
-def interpolate(codes: NDArray, lowest: NDArray, step: NDArray, node: int, wanted: int, heading: float) -> float:
-    """The periodic linear interpolation, at ``heading``, of a row of CodedValues tabulated evenly from -pi on."""
-    bins = codes.shape[2]
+def bins_around(heading: float, bins: int) -> tuple[int, int, float]:
+    """The two of so many headings, evenly from -pi on, that one lies between, and its share of the way."""
     turns = heading / (2.0 * math.pi) + 0.5
     place = (turns - math.floor(turns)) * bins
     low = min(int(place), bins - 1)
-    high = low + 1 if low + 1 < bins else 0
-    share = place - low
+    return low, low + 1 if low + 1 < bins else 0, place - low
+
+
+@numba.njit(cache=True, nogil=True)
+def interpolate(codes: NDArray, lowest: NDArray, step: NDArray, node: int, wanted: int, heading: float) -> float:
+    """The periodic linear interpolation, at ``heading``, of a row of CodedValues tabulated evenly from -pi on."""
+    low, high, share = bins_around(heading, codes.shape[2])
     code = codes[node, wanted, low] * (1.0 - share) + codes[node, wanted, high] * share
     return lowest[node, wanted] + step[node, wanted] * code
 
@@ -72,6 +76,25 @@ def arrival_value(
 
 
 @numba.njit(cache=True, nogil=True)
+def exact_value(
+    rules: Rules,
+    codes: NDArray,
+    lowest: NDArray,
+    step: NDArray,
+    smoothness: NDArray,
+    price: NDArray,
+    edge: int,
+    there: int,
+    wanted: int,
+    matches: bool,
+    turn: float,
+) -> float:
+    """``arrival_value`` of an extra turn, at its price, that brings the facing right onto the heading."""
+    quality = smoothness[edge] * math.exp(-4.0 * price[there] * math.sin(0.5 * turn) ** 2)
+    return arrival_value(rules, codes, lowest, step, there, wanted, 0.0, 1.0 if matches else 0.0, quality)
+
+
+@numba.njit(cache=True, nogil=True)
 def best_action(
     edge_start: NDArray,
     target: NDArray,
@@ -91,8 +114,11 @@ def best_action(
     wanted: int,
     heading: float,
     exact: bool,
-) -> tuple[float, int, float]:
-    """The worth, the edge and the extra turn of the best action; the first of equals wins.
+) -> tuple[float, int, float, int]:
+    """The worth, the edge, the extra turn and the number of the best action of all; the first of equals wins.
+
+    Of L levels, an edge that is the i-th to leave its node makes actions i L to i L + L - 1, a level each. The turn
+    right onto the heading goes by its edge's first number.
 
     Args:
         edge_start: as of Actions, and so are the arrays up to ``rules``.
@@ -102,22 +128,72 @@ def best_action(
         heading: wanted heading less facing, radians.
         exact: whether to look, besides the levels, at the turn that brings the facing right onto the heading.
     """
-    highest, best, best_turn = -np.inf, -1, 0.0
+    highest, best, best_turn, number = -np.inf, -1, 0.0, 0
     gaussian = bool(headed[wanted])
     for edge in range(edge_start[node], edge_start[node + 1]):
-        there, left = target[edge], heading - yaw[edge]
+        there, left = int(target[edge]), heading - yaw[edge]
         limit, matches = turn_limit[there], wanted == behaviour[there]
+        first = (edge - edge_start[node]) * len(level)
         for k in range(len(level) if limit > 0.0 else 1):
             turn = limit * level[k]
             control = control_quality(left - turn, matches, gaussian, rules.heading_sigma)
             quality = smoothness[edge] * turn_smoothness[there, k]
             value = arrival_value(rules, codes, lowest, step, there, wanted, left - turn, control, quality)
             if value > highest:
-                highest, best, best_turn = value, edge, turn
-        turn = wrapped_angle(left)
+                highest, best, best_turn, number = value, edge, turn, first + k
+        turn = wrapped_angle(float(left))
         if exact and abs(turn) < limit:
-            quality = smoothness[edge] * math.exp(-4.0 * price[there] * math.sin(0.5 * turn) ** 2)
-            value = arrival_value(rules, codes, lowest, step, there, wanted, 0.0, 1.0 if matches else 0.0, quality)
+            value = exact_value(rules, codes, lowest, step, smoothness, price, edge, there, wanted, matches, turn)
             if value > highest:
-                highest, best, best_turn = value, edge, turn
-    return highest, best, best_turn
+                highest, best, best_turn, number = value, edge, turn, first
+    return highest, best, best_turn, number
+
+
+@numba.njit(cache=True, nogil=True)
+def best_listed_action(
+    edge_start: NDArray,
+    target: NDArray,
+    yaw: NDArray,
+    smoothness: NDArray,
+    behaviour: NDArray,
+    turn_limit: NDArray,
+    price: NDArray,
+    level: NDArray,
+    turn_smoothness: NDArray,
+    headed: NDArray,
+    rules: Rules,
+    codes: NDArray,
+    lowest: NDArray,
+    step: NDArray,
+    shortlist: NDArray,
+    node: int,
+    wanted: int,
+    heading: float,
+    exact: bool,
+) -> tuple[int, float]:
+    """The edge and the extra turn of the better of two actions: those best at the headings tabulated on either side.
+
+    Where both are the same one there is nothing to judge, but whether to turn right onto the heading. Arguments as of
+    ``best_action``, and ``shortlist`` is that of PolicyTable.  # (N, B, H)
+    """
+    highest, best, best_turn = -np.inf, -1, 0.0
+    low, high, _ = bins_around(heading, shortlist.shape[2])
+    one, other = int(shortlist[node, wanted, low]), int(shortlist[node, wanted, high])
+    for number in (one, other):
+        edge, k = edge_start[node] + number // len(level), number % len(level)
+        there, left = int(target[edge]), heading - yaw[edge]
+        limit, matches = turn_limit[there], wanted == behaviour[there]
+        turn, straight = limit * level[k], wrapped_angle(float(left))
+        reaches = exact and abs(straight) < limit
+        if one == other and not reaches:
+            return edge, turn
+        control = control_quality(left - turn, matches, bool(headed[wanted]), rules.heading_sigma)
+        quality = smoothness[edge] * turn_smoothness[there, k]
+        value = arrival_value(rules, codes, lowest, step, there, wanted, left - turn, control, quality)
+        if value > highest:
+            highest, best, best_turn = value, edge, turn
+        if reaches:
+            value = exact_value(rules, codes, lowest, step, smoothness, price, edge, there, wanted, matches, straight)
+            if value > highest:
+                highest, best, best_turn = value, edge, straight
+    return best, best_turn

@@ -1,14 +1,17 @@
 """The policy table: the worth of every node under every command, looked ahead from at run time."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from footwork.errors import InputError
+from footwork.motion.arrays import frozen, require_shape
 from footwork.motion.coded_values import CodedValues, quantised
 from footwork.motion.player_model import PlayerModel
 from footwork.motion.task import SteeringTask
+
+SHORTLIST_KINDS = np.uint8, np.uint16
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,9 +28,12 @@ class PolicyTable:
         sweeps: how many sweeps were made.
         converged: whether the residual came under the tolerance before values were rounded to sixteen bits.
         player: how commands were taken to change from tick to tick; None for never.
+        shortlist: the number of every state's best action (``lookahead.best_action``); empty where controllers shall
+            look at all.  # (N, B, H) or (N, B, 0)
 
     Raises:
-        InputError: for values of the wrong shape or that are not finite, or a player model of other axes.
+        InputError: for values of the wrong shape or that are not finite, a shortlist of the wrong shape or kind, or a
+            player model of other axes.
     """
 
     task: SteeringTask
@@ -36,13 +42,35 @@ class PolicyTable:
     sweeps: int
     converged: bool
     player: PlayerModel | None = None
+    shortlist: NDArray[np.unsignedinteger] = field(default_factory=lambda: np.zeros((0, 0, 0), np.uint8))
     where: str = "policy table"
 
     def __post_init__(self) -> None:
         checked = self.coded.checked(len(self.task.behaviours), self.task.heading_bins, self.where)
         object.__setattr__(self, "coded", checked)
+        object.__setattr__(self, "shortlist", self._checked_shortlist())
         if self.player is not None:
             require_axes(self.player, self.task)
+
+    def _checked_shortlist(self) -> NDArray[np.unsignedinteger]:
+        listed, states = self.shortlist, self.coded.codes.shape
+        if listed.dtype not in SHORTLIST_KINDS:
+            kinds = ", ".join(str(np.dtype(kind)) for kind in SHORTLIST_KINDS)
+            raise InputError(f"the shortlist holds {listed.dtype}, expected one of {kinds}", self.where)
+        if not listed.size:
+            return frozen(np.zeros((*states[:2], 0), listed.dtype), listed.dtype)
+        require_shape(listed, states, "shortlist", self.where)
+        return frozen(listed, listed.dtype)
+
+    @property
+    def unlisted(self) -> "PolicyTable":
+        """The same values without a shortlist."""
+        return replace(self, shortlist=self.shortlist[..., :0])
+
+    @property
+    def nbytes(self) -> int:
+        """What values and shortlist take."""
+        return self.coded.nbytes + self.shortlist.nbytes
 
     @property
     def values(self) -> NDArray[np.float32]:
@@ -78,3 +106,9 @@ def require_axes(player: PlayerModel, task: SteeringTask) -> None:
         raise InputError(problem, player.where)
     if player.heading_bins != task.heading_bins:
         raise InputError(f"{player.heading_bins} heading bins, the task has {task.heading_bins}", player.where)
+
+
+def shortlisted(best: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
+    """Best actions (N, B, H) in as few bits as hold them, and none (N, B, 0) where a shortlist cannot."""
+    kind = next((kind for kind in SHORTLIST_KINDS if best.max(initial=0) <= np.iinfo(kind).max), None)
+    return best[..., :0].astype(np.uint8) if kind is None else best.astype(kind)

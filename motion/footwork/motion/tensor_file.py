@@ -25,7 +25,7 @@ MAX_FILE_BYTES = 4 << 30
 MAX_HEADER_BYTES = 32 << 20
 _UNSEALED = "0" * 64
 Data = bytes | mmap.mmap
-_KINDS = {"F64": "<f8", "F32": "<f4", "I32": "<i4", "I16": "<i2", "U16": "<u2", "BOOL": "?"}
+_KINDS = {"F64": "<f8", "F32": "<f4", "I32": "<i4", "I16": "<i2", "U16": "<u2", "U8": "|u1", "BOOL": "?"}
 
 
 class _Tensor(msgspec.Struct, forbid_unknown_fields=True):

@@ -14,15 +14,15 @@ from footwork.motion.task import SteeringTask
 from footwork.motion.threads import THREADS
 
 
-def bellman_residual(
+def backed_up(
     values: NDArray,
     actions: Actions,
     onward: NDArray[np.int32],
     task: SteeringTask,
     player: PlayerModel | None,
     spans: Sequence[tuple[int, int]],
-) -> float:
-    """The largest difference between values and what one backup makes of them.
+) -> tuple[float, NDArray[np.int32]]:
+    """The largest difference between values and what one backup makes of them, and its best actions by number.
 
     Values that differ from the true ones anywhere by more than this over 1 - discount cannot be.
 
@@ -35,20 +35,24 @@ def bellman_residual(
         spans: stretches of nodes to share out to threads, as (begin, end).
     """
     following, headings = values, task.headings
+    best, best_onward = np.zeros(values.shape, np.int32), np.zeros(values.shape, np.int32)
     with ThreadPoolExecutor(THREADS) as pool:
         for tick in range(task.segment_ticks):
             backed = np.empty(values.shape)
             choices = onward_actions(actions, onward) if tick else actions
-            jobs = [pool.submit(_back_up, choices, headings, *span, following, backed) for span in spans]
+            into = backed, best_onward if tick else best
+            jobs = [pool.submit(_back_up, choices, headings, *span, following, *into) for span in spans]
             for job in jobs:
                 job.result()
             following = backed if player is None else player.expected(backed)
-    return float(np.abs(following - values).max())
+    return float(np.abs(following - values).max()), best
 
 
 @numba.njit(cache=True, nogil=True)
-def _back_up(actions: Actions, headings: NDArray, begin: int, end: int, values: NDArray, backed: NDArray) -> None:
-    """Write the worth of the best action at each heading of the nodes begin..end-1."""
+def _back_up(
+    actions: Actions, headings: NDArray, begin: int, end: int, values: NDArray, backed: NDArray, best: NDArray
+) -> None:
+    """Write the worth and the number of the best action at each heading of the nodes begin..end-1."""
     edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
     lowest, step = np.zeros(values.shape[:2]), np.ones(values.shape[:2])
     for node in range(begin, end):
@@ -74,4 +78,4 @@ def _back_up(actions: Actions, headings: NDArray, begin: int, end: int, values: 
                     headings[h],
                     False,
                 )
-                backed[node, wanted, h] = found[0]
+                backed[node, wanted, h], best[node, wanted, h] = found[0], found[3]

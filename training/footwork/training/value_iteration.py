@@ -18,11 +18,11 @@ from footwork.motion.actions import Actions, actions_of, onward_edges
 from footwork.motion.coded_values import exact
 from footwork.motion.graph import MotionGraph
 from footwork.motion.player_model import PlayerModel
-from footwork.motion.table import PolicyTable, require_axes
+from footwork.motion.table import PolicyTable, require_axes, shortlisted
 from footwork.motion.task import SteeringTask
 from footwork.motion.threads import THREADS
 from footwork.motion.turn_warp import turn_warp
-from footwork.training.residual import bellman_residual
+from footwork.training.residual import backed_up
 from footwork.training.sweeper import Sweeper, spans_of
 
 TOLERANCE = 1e-3
@@ -83,9 +83,10 @@ def solve(
         actions, onward, task, player=player, tolerance=0.5 * tolerance, max_sweeps=max_sweeps, progress=progress
     )
     values = solution.values.astype(np.float32)
-    residual = bellman_residual(values, actions, onward, task, player, spans_of(actions.edge_start))
+    residual, best = backed_up(values, actions, onward, task, player, spans_of(actions.edge_start))
     rounding = 2.0 * float(np.spacing(np.abs(values).max()))
-    return PolicyTable(task, exact(values), residual, solution.sweeps, residual < tolerance + rounding, player)
+    converged = residual < tolerance + rounding
+    return PolicyTable(task, exact(values), residual, solution.sweeps, converged, player, shortlisted(best))
 
 
 def fixed_point(
