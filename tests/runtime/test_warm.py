@@ -22,7 +22,7 @@ def test_a_tick_after_warming_compiles_nothing():
     graph, table = bundle.graph, bundle.tables["steering"]
     warm_kernels(steering.SteeringController(graph, table))
     before = kernels()
-    assert before[ticking.make_moves]
+    assert before[ticking.advance]
     assert before[ticking.show_characters]
     characters, controller = world.World(graph, 3), steering.SteeringController(graph, table)
     for slot in range(3):

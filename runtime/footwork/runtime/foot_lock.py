@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from footwork.motion.alignment import turn as rotated
 from footwork.motion.graph import MotionGraph
 from footwork.motion.skeleton import Skeleton
+from footwork.motion.tick import TICK
+from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.leg_kernels import plus
 from footwork.runtime.motion_rows import VELOCITY
 from footwork.runtime.rotation_kernels import along, column3, column4, exp, multiply, planar, rotate, turned
@@ -120,16 +122,16 @@ def sole_of(ankle, ball):
 
 @numba.njit(cache=True, nogil=True)
 def update_locks(
-    here: int,
-    target: int,
+    slots: NDArray,
+    node: NDArray,
+    target: NDArray,
     place: NDArray,
     contacts: NDArray,
-    weights: tuple[float, float, float, float],
-    dying: tuple[float, float, float, float],
+    halflife: float,
     root_position: NDArray,
     nodes: NDArray,
     offsets: NDArray,
-    root: NDArray,
+    roots: NDArray,
     legs: NDArray,
     bones: NDArray,
     floor: float,
@@ -138,43 +140,46 @@ def update_locks(
     slip: NDArray,
     stride: NDArray,
 ) -> None:
-    """What becomes of one character's locks as one tick ends and the next begins, in place.
+    """What becomes of the locks of characters as one tick ends and the next begins, in place.
 
     Args:
-        here: its node as the tick ends.
-        target: the node it goes to next.
-        place: its planar place as the tick ends.  # (3,)
+        slots: which rows.  # (n,)
+        node: where each is as the tick ends.  # (C,)
+        target: the node it goes to next.  # (C,)
+        place: planar places as the tick ends.  # (C, 3)
         contacts: of the graph.  # (N, feet)
-        weights: ``decay_weights`` of inertialisation over a tick.
-        dying: those of what a lock leaves.
+        halflife: of inertialisation, s.
         root_position: of the graph.  # (N, 3)
         nodes: ``motion_rows.node_rows`` of the graph.  # (N, 7, padded J)
-        offsets: ``motion_rows.offset_rows`` as the tick began.  # (6, padded J)
-        root: offset and its velocity of the root, as the tick began.  # (2, 3)
+        offsets: ``motion_rows.offset_rows`` as the tick began.  # (C, 6, padded J)
+        roots: offset and its velocity of the root, as the tick began.  # (C, 2, 3)
         legs: ``legs_of`` the body.  # (feet, 4)
         bones: its rest offsets.  # (J, 3)
         floor: height of the lowest balls, metres.
-        locked: which feet stay where they are.  # (feet,)
-        anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (feet, 4)
-        slip: of feet not locked, offset and its velocity, as the tick begins.  # (feet, 2, 3)
-        stride: how many ticks are left of each foot's step.  # (feet,)
+        locked: which feet stay where they are.  # (C, feet)
+        anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (C, feet, 4)
+        slip: of feet not locked, offset and its velocity, as the tick begins.  # (C, feet, 2, 3)
+        stride: how many ticks are left of each foot's step.  # (C, feet)
     """
-    now = weights[0], weights[1]
-    pelvis = _pelvis_at_tick(nodes[here], place, root_position[here], offsets, root, now)
-    for foot in range(legs.shape[0]):
-        if not locked[foot]:
-            _die_away(slip[foot], dying)
-        stride[foot] = max(stride[foot] - 1, 0)
-        stays = contacts[here, foot] and contacts[target, foot]
-        if locked[foot] or (stays and stride[foot] == 0):
-            height, sole = _foot_at_tick(pelvis, legs[foot], bones, nodes[here], offsets, now)
-            if locked[foot]:
-                _leave(sole, anchor[foot], slip[foot])
-                locked[foot] = stays
-            elif height <= floor + LOW:
-                _settle(sole, anchor[foot], slip[foot])
-                locked[foot] = True
-    _take_step(locked, slip, stride)
+    a, b, _, _ = decay_weights(TICK, halflife)
+    dying = decay_weights(TICK, RELEASE_HALFLIFE)
+    for who in slots:
+        here = node[who]
+        pelvis = _pelvis_at_tick(nodes[here], place[who], root_position[here], offsets[who], roots[who], (a, b))
+        for foot in range(legs.shape[0]):
+            if not locked[who, foot]:
+                _die_away(slip[who, foot], dying)
+            stride[who, foot] = max(stride[who, foot] - 1, 0)
+            stays = contacts[here, foot] and contacts[target[who], foot]
+            if locked[who, foot] or (stays and stride[who, foot] == 0):
+                height, sole = _foot_at_tick(pelvis, legs[foot], bones, nodes[here], offsets[who], (a, b))
+                if locked[who, foot]:
+                    _leave(sole, anchor[who, foot], slip[who, foot])
+                    locked[who, foot] = stays
+                elif height <= floor + LOW:
+                    _settle(sole, anchor[who, foot], slip[who, foot])
+                    locked[who, foot] = True
+        _take_step(locked[who], slip[who], stride[who])
 
 
 @numba.njit(cache=True, nogil=True)

@@ -7,9 +7,12 @@ come down. The state of the locks is ``foot_lock``'s.
 import math
 
 import numba
+import numpy as np
 from numpy.typing import NDArray
 
-from footwork.runtime.foot_lock import STEP_TICKS, between_yaws, sole_of
+from footwork.motion.tick import TICK
+from footwork.runtime.foot_lock import RELEASE_HALFLIFE, STEP_TICKS, between_yaws, sole_of
+from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.leg_kernels import bent_knee, conjugate, dot, less, plus
 from footwork.runtime.rotation_kernels import multiply, planar, rotate, turned
 
@@ -24,8 +27,8 @@ DEEPEST = 0.06
 
 @numba.njit(cache=True, nogil=True)
 def hold_feet(
+    slots: NDArray,
     fraction: float,
-    dying: tuple[float, float, float, float],
     legs: NDArray,
     bones: NDArray,
     spans: NDArray,
@@ -34,51 +37,49 @@ def hold_feet(
     anchor: NDArray,
     slip: NDArray,
     stride: NDArray,
-    root: NDArray,
-    rotations: NDArray,
-    goals: NDArray,
+    shown_root: NDArray,
+    shown_rotations: NDArray,
 ) -> None:
-    """Bring the feet of one character's shown pose to where they are held, in place.
+    """Bring the feet of shown poses to where they are held, in place.
 
     Args:
+        slots: which rows.  # (n,)
         fraction: how much of the tick has passed, 0..1.
-        dying: ``decay_weights`` over that of what a lock leaves.
         legs: ``foot_lock.legs_of`` the body.  # (feet, 4)
         bones: its rest offsets.  # (J, 3)
         spans: lengths of thigh and shank.  # (feet, 2)
         floor: no ball goes lower, metres.
-        locked: which feet stay where they are.  # (feet,)
-        anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (feet, 4)
-        slip: of feet not locked, offset and its velocity, as the tick begins.  # (feet, 2, 3)
-        stride: how many ticks are left of each foot's step, as the tick begins.  # (feet,)
-        root: joint 0 in the world, m.  # (3,) float32
-        rotations: local rotations xyzw, joint 0 in the world.  # (J, 4) float32
-        goals: room to work in.  # (feet, 6)
+        locked: which feet stay where they are.  # (C, feet)
+        anchor: where: ball x and z in the world, sine and cosine of the foot's yaw.  # (C, feet, 4)
+        slip: of feet not locked, offset and its velocity, as the tick begins.  # (C, feet, 2, 3)
+        stride: how many ticks are left of each foot's step, as the tick begins.  # (C, feet)
+        shown_root: joint 0 in the world, m.  # (C, 3) float32
+        shown_rotations: local rotations xyzw, joint 0 in the world.  # (C, J, 4) float32
     """
-    drop = 0.0
-    for foot in range(legs.shape[0]):
-        pose = _leg_pose(legs[foot], bones, root, rotations)
-        lift = _lift(stride[foot], fraction)
-        up = max(floor - pose[3][1], 0.0) + lift
-        change = _correction(pose, locked[foot], anchor[foot], slip[foot], dying[0], dying[1], up)
-        x, z, sine, cosine, up = change
-        moved = x != 0.0 or z != 0.0 or sine != 0.0 or up != 0.0
-        goals[foot, 5] = moved
-        if moved:
-            ankle = _ankle_goal(pose, change)
-            # as if it were not lifted: the hips rise as the foot comes nearer, not at once
-            level = ankle[0], ankle[1] - lift, ankle[2]
-            drop = max(drop, _needed_drop(pose, level, _longest(spans[foot], pose)))
-            goals[foot, 0], goals[foot, 1], goals[foot, 2] = ankle
-            goals[foot, 3], goals[foot, 4] = sine, cosine
-        else:
-            goals[foot, 0], goals[foot, 1], goals[foot, 2] = pose[2]
-            goals[foot, 3], goals[foot, 4] = 0.0, 1.0
-    drop = min(drop, DEEPEST)
-    root[1] -= drop
-    for foot in range(legs.shape[0]):
-        if goals[foot, 5] != 0.0 or drop > 0.0:
-            _bend_leg(legs[foot], bones, spans[foot], goals[foot], root, rotations)
+    a, b, _, _ = decay_weights(fraction * TICK, RELEASE_HALFLIFE)
+    goals, moved = np.empty((legs.shape[0], 5)), np.empty(legs.shape[0], dtype=np.bool_)
+    for who in slots:
+        root, rotations, drop = shown_root[who], shown_rotations[who], 0.0
+        for foot in range(legs.shape[0]):
+            pose = _leg_pose(legs[foot], bones, root, rotations)
+            lift = _lift(stride[who, foot], fraction)
+            up = max(floor - pose[3][1], 0.0) + lift
+            change = _correction(pose, locked[who, foot], anchor[who, foot], slip[who, foot], a, b, up)
+            x, z, sine, cosine, up = change
+            moved[foot] = x != 0.0 or z != 0.0 or sine != 0.0 or up != 0.0
+            if moved[foot]:
+                ankle = _ankle_goal(pose, change)
+                # as if it were not lifted: the hips rise as the foot comes nearer, not at once
+                level = ankle[0], ankle[1] - lift, ankle[2]
+                drop = max(drop, _needed_drop(pose, level, _longest(spans[foot], pose)))
+                goals[foot] = ankle[0], ankle[1], ankle[2], sine, cosine
+            else:
+                goals[foot] = pose[2][0], pose[2][1], pose[2][2], 0.0, 1.0
+        drop = min(drop, DEEPEST)
+        root[1] -= drop
+        for foot in range(legs.shape[0]):
+            if moved[foot] or drop > 0.0:
+                _bend_leg(legs[foot], bones, spans[foot], goals[foot], root, rotations)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.tick import TICK
 from footwork.runtime.motion_rows import SPIN, VELOCITY
+from footwork.runtime.moving import glided
 from footwork.runtime.rotation_kernels import (
     along,
     before,
@@ -88,18 +89,32 @@ def _joint_offset(offset, velocity, old, old_spin, new, new_spin):
 
 
 @numba.njit(cache=True, nogil=True)
-def decay(offsets: NDArray, roots: NDArray, weights: tuple[float, float, float, float]) -> None:
-    """A step of the spring for one character's offsets, in place.
+def decay(
+    slots: NDArray, ticks_left: NDArray, offsets: NDArray, roots: NDArray, seconds: float, halflife: float
+) -> None:
+    """Let the offsets of those characters that have any decay by ``seconds``, in place.
 
     Args:
-        offsets: ``motion_rows.offset_rows`` of its joints, rad and rad/s.  # (6, padded J)
-        roots: offset (m) and its velocity (m/s) of its root.  # (2, 3)
-        weights: ``decay_weights`` over the step.
+        slots: rows of the characters.  # (n,)
+        ticks_left: after how many more calls the offsets are dropped, 0 where there are none.  # (C,)
+        offsets: ``motion_rows.offset_rows`` of the joints, rad and rad/s.  # (C, 6, padded J)
+        roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
+        seconds: how long.
+        halflife: of the spring, s.
     """
-    narrow = np.float32(weights[0]), np.float32(weights[1]), np.float32(weights[2]), np.float32(weights[3])
-    _decay_row(roots[0], roots[1], weights)
-    for k in range(3):
-        _decay_row(offsets[k], offsets[k + VELOCITY], narrow)
+    a, b, c, d = decay_weights(seconds, halflife)
+    narrow = np.float32(a), np.float32(b), np.float32(c), np.float32(d)
+    for who in slots:
+        if ticks_left[who] == 0:
+            continue
+        ticks_left[who] -= 1
+        if ticks_left[who] == 0:
+            offsets[who] = 0.0
+            roots[who] = 0.0
+            continue
+        _decay_row(roots[who, 0], roots[who, 1], (a, b, c, d))
+        for k in range(3):
+            _decay_row(offsets[who, k], offsets[who, k + VELOCITY], narrow)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -146,32 +161,35 @@ def _jump_joints(offsets, old, new, old_yaw, new_yaw):
 
 @numba.njit(cache=True, nogil=True)
 def jump(
+    who: int,
     old_node: int,
-    old_place: tuple[float, float, float],
+    old_place: NDArray,
     new_node: int,
     new_place: tuple[float, float, float],
     root_position: NDArray,
     root_velocity: NDArray,
     nodes: NDArray,
     offsets: NDArray,
-    root: NDArray,
+    roots: NDArray,
 ) -> None:
-    """Take a transition's jump into one character's offsets, in place.
+    """Take a transition's jump into a character's offsets, in place.
 
     The jump goes from the old node to the frame before the new one, which the new node's backward velocities give.
 
     Args:
+        who: the character's row.
         old_node: where it was.
-        old_place: its planar place there, (x, z, yaw).
+        old_place: its planar place there, (x, z, yaw).  # (3,)
         new_node: where the edge led.
         new_place: its planar place there, as the tick begins.
         root_position: of the graph.  # (N, 3)
         root_velocity: of the graph.  # (N, 3)
         nodes: ``motion_rows.node_rows`` of the graph.  # (N, 7, padded J)
-        offsets: ``motion_rows.offset_rows`` of its joints at the end of the last tick, rad and rad/s.  # (6, padded J)
-        root: offset (m) and its velocity (m/s) of its root.  # (2, 3)
+        offsets: ``motion_rows.offset_rows`` of the joints at the end of the last tick, rad and rad/s.
+        roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
     """
     cosine, sine = math.cos(old_place[2]), math.sin(old_place[2])
+    root = roots[who]
     _jump_root(root, root_position[old_node], root_velocity[old_node], old_place, cosine, sine, 1.0)
     cosine, sine = math.cos(new_place[2]), math.sin(new_place[2])
     _jump_root(root, root_position[new_node], root_velocity[new_node], new_place, cosine, sine, -1.0)
@@ -179,4 +197,44 @@ def jump(
     root[0, 0] += TICK * x
     root[0, 1] += TICK * y
     root[0, 2] += TICK * z
-    _jump_joints(offsets, nodes[old_node], nodes[new_node], old_place[2], new_place[2])
+    _jump_joints(offsets[who], nodes[old_node], nodes[new_node], old_place[2], new_place[2])
+
+
+@numba.njit(cache=True, nogil=True)
+def take_jumps(
+    slots: NDArray,
+    settle_ticks: int,
+    ticks_left: NDArray,
+    natural: NDArray,
+    old_node: NDArray,
+    old_place: NDArray,
+    node: NDArray,
+    place: NDArray,
+    glide: NDArray,
+    root_position: NDArray,
+    root_velocity: NDArray,
+    nodes: NDArray,
+    offsets: NDArray,
+    roots: NDArray,
+) -> None:
+    """``jump`` for the characters ``slots`` (n,) whose move is not natural, from where their tick begins; see there.
+
+    ``old_node`` (n,) and ``old_place`` (n, 3) are theirs row for row. ``glide`` is what ``moving.make_moves`` gives
+    (C, 3); ``ticks_left`` is set to ``settle_ticks`` for those that jump.
+    """
+    for row in range(slots.shape[0]):
+        who = int(slots[row])
+        if not natural[who]:
+            ticks_left[who] = settle_ticks
+            jump(
+                who,
+                old_node[row],
+                old_place[row],
+                node[who],
+                glided(place[who], glide[who], -1.0),
+                root_position,
+                root_velocity,
+                nodes,
+                offsets,
+                roots,
+            )

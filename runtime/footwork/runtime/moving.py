@@ -39,18 +39,31 @@ def first_wrong_move(
 
 
 @numba.njit(cache=True, nogil=True)
-def move_place(place: NDArray, displacement: NDArray, adjustment: NDArray, glide: NDArray) -> None:
-    """Take one character's place through its move, in place; yaw is kept within -pi..pi.
+def make_moves(
+    slots: NDArray,
+    target: NDArray,
+    displacement: NDArray,
+    adjustment: NDArray,
+    node: NDArray,
+    place: NDArray,
+    glide: NDArray,
+) -> None:
+    """Make the moves of characters, in place; yaw is kept within -pi..pi.
 
     Args:
-        place: its planar place (x, z, yaw).  # (3,)
-        displacement: of its move.  # (3,)
-        adjustment: of its move.  # (3,)
-        glide: written: the even planar motion that makes up the adjustment over the tick, m and rad a tick.  # (3,)
+        slots: which rows.  # (n,)
+        target: of the moves.  # (C,)
+        displacement: of the moves.  # (C, 3)
+        adjustment: of the moves.  # (C, 3)
+        node: where each is.  # (C,)
+        place: planar places (x, z, yaw).  # (C, 3)
+        glide: the even planar motion that makes up the adjustment over the tick, m and rad a tick.  # (C, 3)
     """
-    _carry(place, displacement)
-    _carry(place, adjustment)
-    glide[0], glide[1], glide[2] = glide_of(adjustment)
+    for who in slots:
+        _carry(place[who], displacement[who])
+        _carry(place[who], adjustment[who])
+        glide[who, 0], glide[who, 1], glide[who, 2] = glide_of(adjustment[who])
+        node[who] = target[who]
 
 
 @numba.njit(cache=True, nogil=True)

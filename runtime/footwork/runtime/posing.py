@@ -6,7 +6,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.tick import TICK
+from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.motion_rows import SPIN, VELOCITY
+from footwork.runtime.moving import glided
 from footwork.runtime.rotation_kernels import along, before, column3, column4, exp, multiply, planar, turned
 
 
@@ -46,42 +49,50 @@ def _pose_joints(node, offset, back, a, b, rows):
 
 @numba.njit(cache=True, nogil=True)
 def pose(
-    here: int,
-    place: tuple[float, float, float],
-    back: float,
-    weights: tuple[float, float, float, float],
+    slots: NDArray,
+    node: NDArray,
+    place: NDArray,
+    glide: NDArray,
+    fraction: float,
+    halflife: float,
     root_position: NDArray,
     root_velocity: NDArray,
     nodes: NDArray,
     offsets: NDArray,
-    root: NDArray,
+    roots: NDArray,
     shown_root: NDArray,
     shown_rotations: NDArray,
-    rows: NDArray,
 ) -> None:
-    """Write one character's pose at a moment of the tick into ``shown_root`` and ``shown_rotations``.
+    """Write the poses of characters at a fraction of the tick into the last two arrays.
 
-    The node's pose is moved back by its own velocities over what is left of the tick; the offsets have decayed over
-    what has passed of it.
+    The node's pose is moved back by its own velocities, and its place along its glide, over what is left of the tick;
+    the offsets have decayed over what has passed of it.
 
     Args:
-        here: its node.
-        place: its planar place (x, z, yaw) at that moment.
-        back: what is left of the tick, s.
-        weights: ``decay_weights`` of the offsets over what has passed of it.
+        slots: which rows.  # (n,)
+        node: where each is.  # (C,)
+        place: planar places (x, z, yaw) of the nodes.  # (C, 3)
+        glide: planar motions that led there over the tick, m and rad a tick.  # (C, 3)
+        fraction: how much of the tick has passed, 0..1.
+        halflife: of the offsets, s.
         root_position: of the graph.  # (N, 3)
         root_velocity: of the graph.  # (N, 3)
         nodes: ``motion_rows.node_rows`` of the graph.  # (N, 7, padded J)
-        offsets: ``motion_rows.offset_rows`` at the start of the tick, rad and rad/s.  # (6, padded J)
-        root: offset (m) and its velocity (m/s) of the root.  # (2, 3)
-        shown_root: joint 0 in the world, m.  # (3,) float32
-        shown_rotations: local rotations xyzw, joint 0 in the world.  # (J, 4) float32
-        rows: room to work in.  # (4, padded J) float32
+        offsets: ``motion_rows.offset_rows`` at the start of the tick, rad and rad/s.  # (C, 6, padded J)
+        roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
+        shown_root: joint 0 in the world, m.  # (C, 3) float32
+        shown_rotations: local rotations xyzw, joint 0 in the world.  # (C, J, 4) float32
     """
-    a, b, _, _ = weights
-    _pose_root(place, root_position[here], root_velocity[here], back, root, a, b, shown_root)
-    _pose_first_joint(place[2], nodes[here], offsets, back, a, b, shown_rotations[0])
-    _pose_joints(nodes[here], offsets, np.float32(back), np.float32(a), np.float32(b), rows)
-    for joint in range(1, shown_rotations.shape[0]):
-        for k in range(4):
-            shown_rotations[joint, k] = rows[k, joint]
+    back = (1.0 - fraction) * TICK
+    a, b, _, _ = decay_weights(fraction * TICK, halflife)
+    back32, a32, b32 = np.float32(back), np.float32(a), np.float32(b)
+    rows = np.empty((4, nodes.shape[2]), dtype=np.float32)
+    for who in slots:
+        here, shown = node[who], shown_rotations[who]
+        at = glided(place[who], glide[who], fraction - 1.0)
+        _pose_root(at, root_position[here], root_velocity[here], back, roots[who], a, b, shown_root[who])
+        _pose_first_joint(at[2], nodes[here], offsets[who], back, a, b, shown[0])
+        _pose_joints(nodes[here], offsets[who], back32, a32, b32, rows)
+        for joint in range(1, shown.shape[0]):
+            for k in range(4):
+                shown[joint, k] = rows[k, joint]

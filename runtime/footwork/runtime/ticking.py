@@ -1,20 +1,19 @@
-"""The kernels of a tick: characters are moved and shown one after the other, as none knows of another."""
+"""The kernels of a tick: characters are moved along their edges, and shown."""
 
 import numba
-import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.tick import TICK
 from footwork.runtime.characters import Characters, Motion, Smoothing
-from footwork.runtime.foot_lock import RELEASE_HALFLIFE, update_locks
+from footwork.runtime.foot_lock import update_locks
 from footwork.runtime.held_feet import hold_feet
-from footwork.runtime.inertialisation import decay, decay_weights, jump
-from footwork.runtime.moving import first_wrong_move, glided, move_place
+from footwork.runtime.inertialisation import decay, take_jumps
+from footwork.runtime.moving import first_wrong_move, make_moves
 from footwork.runtime.posing import pose
 
 
 @numba.njit(cache=True, nogil=True)
-def make_moves(
+def advance(
     slots: NDArray,
     edge: NDArray,
     target: NDArray,
@@ -34,77 +33,59 @@ def make_moves(
         motion: what they move on.
         smoothing: how they are shown.
     """
-    wrong = first_wrong_move(
-        slots, characters.node, edge, target, displacement, adjustment, motion.edge_start, motion.target
-    )
+    # to compiled code, each look into a tuple of arrays counts references: it is done once
+    node, place, taken, as_captured, glide, ticks_left, offsets, roots, locked, anchor, slip, stride = characters
+    edge_start, graph_target, contacts, root_position, root_velocity, nodes, legs, bones, _, floor = motion
+    halflife = smoothing.halflife
+    wrong = first_wrong_move(slots, node, edge, target, displacement, adjustment, edge_start, graph_target)
     if wrong >= 0:
         return wrong
-    weights, dying = decay_weights(TICK, smoothing.halflife), decay_weights(TICK, RELEASE_HALFLIFE)
+    # to compiled code, each look into a tuple of arrays counts references: it is done once
+    node, place, taken, as_captured, glide, ticks_left, offsets, roots, locked, anchor, slip, stride = characters
+    _, _, contacts, root_position, root_velocity, nodes, legs, bones, _, floor = motion
+    if smoothing.foot_lock:
+        update_locks(
+            slots,
+            node,
+            target,
+            place,
+            contacts,
+            halflife,
+            root_position,
+            nodes,
+            offsets,
+            roots,
+            legs,
+            bones,
+            floor,
+            locked,
+            anchor,
+            slip,
+            stride,
+        )
+    old_node, old_place = node[slots], place[slots]
+    make_moves(slots, target, displacement, adjustment, node, place, glide)
     for who in slots:
-        if smoothing.foot_lock:
-            _renew_locks(who, target[who], characters, motion, weights, dying)
-        node, place = characters.node[who], characters.place[who]
-        left = place[0], place[1], place[2]
-        move_place(place, displacement[who], adjustment[who], characters.glide[who])
-        characters.node[who], characters.edge[who], characters.natural[who] = target[who], edge[who], natural[who]
-        if smoothing.inertialise:
-            _decay(who, characters, weights)
-            if not natural[who]:
-                characters.ticks_left[who] = smoothing.settle_ticks
-                _jump(who, node, left, characters, motion)
+        taken[who], as_captured[who] = edge[who], natural[who]
+    if smoothing.inertialise:
+        decay(slots, ticks_left, offsets, roots, TICK, halflife)
+        take_jumps(
+            slots,
+            smoothing.settle_ticks,
+            ticks_left,
+            natural,
+            old_node,
+            old_place,
+            node,
+            place,
+            glide,
+            root_position,
+            root_velocity,
+            nodes,
+            offsets,
+            roots,
+        )
     return -1
-
-
-@numba.njit(cache=True, nogil=True)
-def _renew_locks(who, target, characters, motion, weights, dying):
-    update_locks(
-        characters.node[who],
-        target,
-        characters.place[who],
-        motion.contacts,
-        weights,
-        dying,
-        motion.root_position,
-        motion.nodes,
-        characters.offsets[who],
-        characters.roots[who],
-        motion.legs,
-        motion.bones,
-        motion.floor,
-        characters.locked[who],
-        characters.anchor[who],
-        characters.slip[who],
-        characters.stride[who],
-    )
-
-
-@numba.njit(cache=True, nogil=True)
-def _decay(who, characters, weights):
-    """Let one character's offsets decay over a tick, and drop them where nothing is left to see."""
-    if characters.ticks_left[who] == 0:
-        return
-    characters.ticks_left[who] -= 1
-    if characters.ticks_left[who] == 0:
-        characters.offsets[who] = 0.0
-        characters.roots[who] = 0.0
-    else:
-        decay(characters.offsets[who], characters.roots[who], weights)
-
-
-@numba.njit(cache=True, nogil=True)
-def _jump(who, node, place, characters, motion):
-    """Take the jump from a node and place, to where a character's tick now begins, into its offsets."""
-    jump(
-        node,
-        place,
-        characters.node[who],
-        glided(characters.place[who], characters.glide[who], -1.0),
-        motion.root_position,
-        motion.root_velocity,
-        motion.nodes,
-        characters.offsets[who],
-        characters.roots[who],
-    )
 
 
 @numba.njit(cache=True, nogil=True)
@@ -128,50 +109,35 @@ def show_characters(
         shown_root: joint 0 in the world, m.  # (C, 3) float32
         shown_rotations: local rotations xyzw, joint 0 in the world.  # (C, J, 4) float32
     """
-    back = (1.0 - fraction) * TICK
-    weights = decay_weights(fraction * TICK, smoothing.halflife)
-    dying = decay_weights(fraction * TICK, RELEASE_HALFLIFE)
-    rows = np.empty((4, motion.nodes.shape[2]), dtype=np.float32)
-    goals = np.empty((motion.legs.shape[0], 6))
-    for who in slots:
-        at = glided(characters.place[who], characters.glide[who], fraction - 1.0)
-        _pose(who, at, back, weights, characters, motion, shown_root[who], shown_rotations[who], rows)
-        if smoothing.foot_lock:
-            _hold_feet(who, fraction, dying, characters, motion, shown_root[who], shown_rotations[who], goals)
-
-
-@numba.njit(cache=True, nogil=True)
-def _pose(who, place, back, weights, characters, motion, root, rotations, rows):
+    node, place, _, _, glide, _, offsets, roots, locked, anchor, slip, stride = characters
+    _, _, _, root_position, root_velocity, nodes, legs, bones, spans, floor = motion
     pose(
-        characters.node[who],
+        slots,
+        node,
         place,
-        back,
-        weights,
-        motion.root_position,
-        motion.root_velocity,
-        motion.nodes,
-        characters.offsets[who],
-        characters.roots[who],
-        root,
-        rotations,
-        rows,
-    )
-
-
-@numba.njit(cache=True, nogil=True)
-def _hold_feet(who, fraction, dying, characters, motion, root, rotations, goals):
-    hold_feet(
+        glide,
         fraction,
-        dying,
-        motion.legs,
-        motion.bones,
-        motion.spans,
-        motion.floor,
-        characters.locked[who],
-        characters.anchor[who],
-        characters.slip[who],
-        characters.stride[who],
-        root,
-        rotations,
-        goals,
+        smoothing.halflife,
+        root_position,
+        root_velocity,
+        nodes,
+        offsets,
+        roots,
+        shown_root,
+        shown_rotations,
     )
+    if smoothing.foot_lock:
+        hold_feet(
+            slots,
+            fraction,
+            legs,
+            bones,
+            spans,
+            floor,
+            locked,
+            anchor,
+            slip,
+            stride,
+            shown_root,
+            shown_rotations,
+        )

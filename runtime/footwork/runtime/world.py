@@ -12,7 +12,7 @@ from footwork.runtime.characters import motion_of, no_characters, smoothing
 from footwork.runtime.foot_lock import move_locks
 from footwork.runtime.motion_rows import VELOCITY
 from footwork.runtime.rotation_kernels import turned
-from footwork.runtime.ticking import make_moves, show_characters
+from footwork.runtime.ticking import advance, show_characters
 from footwork.runtime.world_errors import NoSuchCharacter, WorldError, WorldFull, WrongMove
 
 HALFLIFE = 0.1
@@ -150,7 +150,7 @@ class World:
             WrongMove: when an edge does not leave from its character's node or lead to its target, and for a target
                 or a place that is none; nobody has moved then.
         """
-        wrong = make_moves(
+        wrong = advance(
             self.slots,
             moves.edge,
             moves.target,
