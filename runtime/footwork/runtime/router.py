@@ -2,21 +2,28 @@
 
 import ipaddress
 import logging
+import time
 from enum import Enum
 
 import zmq
 
 from footwork.errors import InputError
 from footwork.protocol.address import is_ipv6, port_fits
+from footwork.runtime.authentication import Authenticator
+from footwork.runtime.connections import Connections
+from footwork.runtime.key_folder import KeyFolder
 
 log = logging.getLogger(__name__)
 
 DEFAULT_BIND = "tcp://127.0.0.1:5555"
 # A peer whose frames are longer is disconnected; the codec's own limit is lower and gets an error reply.
-_FRAME_BYTES = 1 << 16
-_SEND_QUEUE = 512
+_FRAME_BYTES = 1 << 13
+SEND_QUEUE = 512
 _RECEIVE_QUEUE = 512
+_SEND_BUFFER = 1 << 16
 _HEARTBEAT_MS = 2000
+_HANDSHAKE_MS = 5000
+MOST_CONNECTIONS = 1024
 # A message has two frames, the peer's name and the bytes. One of very many frames is read no further than this ...
 _FRAMES = 3
 # ... and what is left of it is passed over so many frames at a time, so that it holds no tick up.
@@ -36,39 +43,91 @@ class Router:
 
     Args:
         bind: where to listen; port 0 or ``*`` takes any free one.
+        keys: let in only clients whose CURVE keys are in this folder; without it whoever reaches the address.
+        most: how many connections there may be.
+        send_queue: how many messages may wait for a peer before more are dropped.
 
     Raises:
-        InputError: for an address that cannot be bound.
+        InputError: for an address that cannot be bound, and a folder of keys that cannot be read.
     """
 
-    def __init__(self, bind: str = DEFAULT_BIND) -> None:
+    def __init__(
+        self,
+        bind: str = DEFAULT_BIND,
+        *,
+        keys: KeyFolder | None = None,
+        most: int = MOST_CONNECTIONS,
+        send_queue: int = SEND_QUEUE,
+    ) -> None:
         if not port_fits(bind):
             raise InputError("cannot bind: a port is at most 65535", bind)
         self._context = zmq.Context()
         self._socket = self._context.socket(zmq.ROUTER)
         options = {
             zmq.ROUTER_MANDATORY: 1,
-            zmq.SNDHWM: _SEND_QUEUE,
+            zmq.SNDHWM: send_queue,
+            zmq.SNDBUF: _SEND_BUFFER,
             zmq.RCVHWM: _RECEIVE_QUEUE,
             zmq.MAXMSGSIZE: _FRAME_BYTES,
             zmq.IPV6: is_ipv6(bind),
             zmq.HEARTBEAT_IVL: _HEARTBEAT_MS,
             zmq.HEARTBEAT_TIMEOUT: 3 * _HEARTBEAT_MS,
+            zmq.HANDSHAKE_IVL: _HANDSHAKE_MS,
         }
         for option, value in options.items():
             self._socket.set(option, value)
+        self._authenticator = None if keys is None else self._guard(keys)
+        self.connections = Connections(self._socket, most)
+        self._poller = self._watching()
         try:
             self._socket.bind(bind)
         except zmq.ZMQError as error:
             self.close()
             raise InputError(f"cannot bind: {error.strerror}, expected such as {DEFAULT_BIND}", bind) from None
         self.address = self._socket.get_string(zmq.LAST_ENDPOINT)
-        if not is_local(self.address):
-            log.warning("%s can be reached from other machines, and whoever reaches it may take part", self.address)
+        if keys is None and not is_local(self.address):
+            problem = "%s can be reached from other machines, and whoever reaches it may take part; --curve lets in"
+            log.warning(f"{problem} those only whose keys you allow", self.address)
+
+    def _guard(self, keys: KeyFolder) -> Authenticator:
+        try:
+            authenticator = Authenticator(self._context, keys)
+        except InputError:
+            self._socket.close(linger=0)
+            self._context.term()
+            raise
+        authenticator.put_on(self._socket)
+        return authenticator
+
+    def _watching(self) -> zmq.Poller:
+        poller = zmq.Poller()
+        poller.register(self._socket, zmq.POLLIN)
+        poller.register(self.connections.events, zmq.POLLIN)
+        if self._authenticator is not None:
+            poller.register(self._authenticator.socket, zmq.POLLIN)
+        return poller
 
     def poll(self, milliseconds: int) -> bool:
-        """Whether something came in, waiting for it for at most so long."""
-        return bool(self._socket.poll(milliseconds))
+        """Whether a message came in, waiting for it for at most so long."""
+        end = time.monotonic() + milliseconds / 1000.0
+        while True:
+            ready = dict(self._poller.poll(milliseconds))
+            if self.connections.events in ready:
+                self.connections.follow()
+            if self._authenticator is not None and self._authenticator.socket in ready:
+                self._authenticator.answer()
+            milliseconds = int(1000.0 * (end - time.monotonic()))
+            if self._socket in ready or milliseconds <= 0:
+                return self._socket in ready
+
+    def look(self) -> None:
+        """Cut connections that are silent or pile up bytes; to be called every tick or so."""
+        self.connections.look()
+
+    @property
+    def denied(self) -> int:
+        """How many were turned away for their key, or for having none."""
+        return 0 if self._authenticator is None else self._authenticator.denied
 
     def receive(self) -> list[bytes] | None:
         """The next message's first frames, the peer's name before all; None where there is none for now."""
@@ -78,6 +137,10 @@ class Router:
             frames = [self._socket.recv(zmq.NOBLOCK)]
         except zmq.Again:
             return None
+        if not self.connections.knows(frames[0]):
+            data = self._socket.recv(zmq.NOBLOCK, copy=False)
+            self.connections.meet(frames[0], data)
+            frames.append(data.bytes)
         while len(frames) < _FRAMES and self._socket.get(zmq.RCVMORE):
             frames.append(self._socket.recv(zmq.NOBLOCK))  # all of a message is there once its first frame is
         return frames
@@ -104,7 +167,10 @@ class Router:
 
     def close(self, linger: float = 0.0) -> None:
         """Close, giving what is queued ``linger`` seconds to leave."""
+        self.connections.close()
         self._socket.close(linger=round(1000.0 * linger))
+        if self._authenticator is not None:
+            self._authenticator.close()
         self._context.term()
 
 

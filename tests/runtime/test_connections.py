@@ -1,0 +1,169 @@
+"""Connections that are too many, say nothing, or never end a message: cut, and nobody else notices."""
+
+import socket
+import sys
+import time
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import pytest
+import zmq
+
+from footwork.runtime import connections
+from footwork.runtime.router import Router
+
+GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\x00") + bytes(32)
+READY = b"\x05READY\x0bSocket-Type\x00\x00\x00\x06DEALER"
+MORE_TO_COME = b"\x01\x01x"  # a frame of one byte and the promise of another
+
+
+@contextmanager
+def routing(most=8):
+    router = Router("tcp://127.0.0.1:0", most=most)
+    try:
+        yield router
+    finally:
+        router.close()
+
+
+@pytest.fixture
+def router():
+    with routing() as router:
+        yield router
+
+
+def raw(router, *sent):
+    """A TCP connection that has sent these bytes and nothing else."""
+    plain = socket.create_connection(("127.0.0.1", int(router.address.rpartition(":")[2])))
+    plain.sendall(b"".join(sent))
+    return plain
+
+
+@pytest.fixture
+def peer_of():
+    context, held = zmq.Context(), []  # what nobody holds is closed
+
+    def connect(router):
+        dealer = context.socket(zmq.DEALER)
+        held.append(dealer)
+        dealer.connect(router.address)
+        dealer.send(b"hello")
+        return dealer
+
+    yield connect
+    context.destroy(linger=0)
+
+
+def listen(router, until, seconds=5.0):
+    """Take messages and look at connections until something is so; what came."""
+    came = []
+    end = time.monotonic() + seconds
+    while not until() and time.monotonic() < end:
+        if router.poll(5) and (parts := router.receive()) is not None:
+            came.append(parts)
+        router.look()
+    assert until(), f"not so after {seconds} s, {len(came)} messages came"
+    return came
+
+
+def is_shut(plain):
+    plain.settimeout(5.0)
+    try:
+        while plain.recv(4096):
+            pass
+    except ConnectionError:
+        return True
+    except TimeoutError:
+        return False
+    return True
+
+
+def memory():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the kernel counts bytes on Linux only")
+def test_a_message_that_never_ends_is_cut_before_it_fills_the_memory(router, peer_of, caplog):
+    dealer = peer_of(router)
+    listen(router, lambda: len(router.connections) == 1)
+    before = memory()
+    with raw(router, GREETING, bytes([4, len(READY)]), READY) as endless:
+        endless.settimeout(0.05)
+
+        def flood_until_cut():
+            try:
+                endless.sendall(MORE_TO_COME * 10_000)
+            except TimeoutError:
+                pass
+            except OSError:
+                return True
+            return router.connections.cut > 0
+
+        listen(router, flood_until_cut)
+    assert memory() - before < 16 << 20
+    assert "no whole message" in caplog.text
+    dealer.send(b"still here")
+    assert router.poll(5000)
+    assert router.receive()[1] == b"still here"
+
+
+@pytest.mark.parametrize("sent", [b"", GREETING[:20]])
+def test_who_says_nothing_is_cut(router, monkeypatch, sent):
+    monkeypatch.setattr(connections, "SILENT_SECONDS", 0.1)
+    with raw(router, sent) as silent:
+        listen(router, lambda: router.connections.cut == 1)
+        assert is_shut(silent)
+    assert len(router.connections) == 0
+
+
+def test_who_spoke_may_be_silent(router, peer_of, monkeypatch):
+    monkeypatch.setattr(connections, "SILENT_SECONDS", 0.1)
+    peer_of(router)
+    assert listen(router, lambda: len(router.connections) == 1 and router.connections._by_peer)
+    end = time.monotonic() + 0.3
+    listen(router, lambda: time.monotonic() > end)
+    assert router.connections.cut == 0
+
+
+def test_one_too_many_takes_the_place_of_one_that_said_nothing(peer_of):
+    with routing(most=3) as router, ExitStack() as held:
+        peer_of(router)
+        listen(router, lambda: router.connections._by_peer)
+        silent = [held.enter_context(raw(router)) for _ in range(3)]
+        listen(router, lambda: router.connections.cut == 1)
+        assert is_shut(silent[0])
+        assert len(router.connections) == 3
+
+
+def test_where_all_have_spoken_one_more_is_cut(peer_of):
+    with routing(most=2) as router:
+        dealers = [peer_of(router) for _ in range(2)]
+        listen(router, lambda: len(router.connections._by_peer) == 2)
+        with raw(router) as late:
+            assert listen(router, lambda: router.connections.cut == 1) == []
+            assert is_shut(late)
+        for dealer in dealers:
+            dealer.send(b"still here")
+        came = []
+        while len(came) < 2:
+            came += [*listen(router, lambda: router.poll(50)), router.receive()]
+        assert [parts[1] for parts in came] == [b"still here"] * 2
+
+
+def test_nothing_is_kept_of_connections_that_are_gone(router, peer_of):
+    for _ in range(30):
+        dealer = peer_of(router)
+        listen(router, lambda: router.connections._by_peer)
+        dealer.close()
+        listen(router, lambda: not router.connections._by_peer)
+    assert len(router.connections) == 0
+    assert router.connections.cut == 0
+
+
+def test_other_transports_have_no_connections_to_watch(tmp_path, peer_of):
+    router = Router(f"ipc://{tmp_path}/socket")
+    peer_of(router)
+    assert router.poll(5000)
+    assert (router.receive() or [])[1:] == [b"hello"]
+    router.look()
+    router.close()
