@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import os
 from importlib.metadata import version
 from pathlib import Path
@@ -15,7 +16,8 @@ if TYPE_CHECKING:  # at run time they are imported where they are needed, so tha
     from footwork.motion.bundle import Bundle
     from footwork.training.dataset import Dataset
 
-THRESHOLD = 1.0
+# What makes a character answer at once, and still builds while one waits.
+THRESHOLD, BRIDGES, WARP, REWARD = 1.0, 2, math.radians(6.0), "sum"
 
 
 def cache_folder() -> Path:
@@ -38,18 +40,21 @@ def build_or_reuse(dataset: Dataset, cache: Path, progress: Report) -> tuple[Pat
 
 def _build(dataset: Dataset, path: Path, progress: Report) -> Bundle:
     from footwork.motion.bundle import write_bundle
+    from footwork.motion.task import SteeringTask
     from footwork.training.build import build_bundle
     from footwork.training.graph_options import GraphOptions
 
     path.parent.mkdir(parents=True, exist_ok=True)
-    bundle, _ = build_bundle(dataset, GraphOptions(threshold=THRESHOLD), progress=progress)
+    options = GraphOptions(threshold=THRESHOLD, mirror=True, bridges=BRIDGES)
+    bundle, _ = build_bundle(dataset, options, task=SteeringTask(warp=WARP, reward=REWARD), progress=progress)
     write_bundle(path, bundle)
     return bundle
 
 
 def _fingerprint(dataset: Dataset) -> str:
-    """A name for what the bundle is made of: the motion, the version and the threshold."""
-    digest = hashlib.sha256(f"{version('footwork')} {THRESHOLD}".encode())
+    """A name for what the bundle is made of: the motion, the version and how it is built."""
+    how = version("footwork"), THRESHOLD, BRIDGES, WARP, REWARD
+    digest = hashlib.sha256(repr(how).encode())
     for clip in dataset.clips:
         for part in (clip.skeleton.offsets, clip.root_position, clip.rotations, clip.contacts):
             digest.update(part.tobytes())
