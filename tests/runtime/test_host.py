@@ -22,63 +22,14 @@ from footwork.protocol.errors import (
 )
 from footwork.protocol.pose_arrays import root_of, rotations_of
 from footwork.runtime.host import Host
-from footwork.runtime.limits import Limits
 from footwork.runtime.simulation import Simulation
-from toy_bundle import SHOWN, toy_bundle
-
-LIMITS = Limits(sessions=3, characters=4, session_characters=3, errors_per_tick=2, idle_seconds=1.0)
-BUNDLE = toy_bundle()
-SECOND = 1_000_000_000
-
-
-class Talk:
-    """A host, and what it said to whom."""
-
-    def __init__(self, frame_rate: int = 30) -> None:
-        self.host = Host(Simulation(BUNDLE, LIMITS.characters), frame_rate, LIMITS)
-        self.frames = frame_rate // 30
-        self.now = 0
-
-    def say(self, peer: bytes, *messages: m.FromClient) -> list[m.FromServer]:
-        for message in messages:
-            self.host.receive(peer, encode(message), self.now)
-        return self.answers(peer)
-
-    def answers(self, peer: bytes) -> list[m.FromServer]:
-        return [decode_from_server(data) for whom, data in self.host.outgoing() if whom == peer]
-
-    def tick(self, peer: bytes) -> list[m.FromServer]:
-        """What a peer gets at the next tick: events and errors, then all its poses."""
-        self.host.tick()
-        poses = [pair for frame in range(1, self.frames + 1) for pair in self.host.poses(frame)]
-        return self.answers(peer) + [decode_from_server(data) for whom, data in poses if whom == peer]
-
-    def open(self, peer: bytes) -> m.Welcome:
-        (welcome,) = self.say(peer, m.Hello(version=1, client="test"))
-        assert isinstance(welcome, m.Welcome)
-        return welcome
+from talk import BUNDLE, LIMITS, SECOND, Talk, codes, spawn, the_pose, walk
+from toy_bundle import SHOWN
 
 
 @pytest.fixture
 def talk():
     return Talk()
-
-
-def spawn(sequence: int, character: int, **fields) -> m.Spawn:
-    return m.Spawn(sequence=sequence, character=character, **fields)
-
-
-def walk(sequence: int, character: int = 0, behaviour: str = "walk", **fields) -> m.Command:
-    return m.Command(sequence=sequence, character=character, heading=0.0, behaviour=behaviour, **fields)
-
-
-def codes(messages: list[m.FromServer]) -> list[str]:
-    return [message.code for message in messages if isinstance(message, m.Error)]
-
-
-def the_pose(messages: list[m.FromServer]) -> m.Pose:
-    (pose,) = [message for message in messages if isinstance(message, m.Pose)]
-    return pose
 
 
 def test_the_welcome_tells_what_a_client_needs_to_draw(talk):
@@ -209,7 +160,7 @@ def test_two_sessions_may_use_the_same_numbers(talk):
         talk.open(peer)
         talk.say(peer, spawn(1, 0, x=x))
     talk.host.tick()
-    poses = {peer: the_pose([decode_from_server(data)]) for peer, data in talk.host.poses(1)}
+    poses = dict(talk.host.poses(1))
     assert root_of(poses[b"b"])[0] - root_of(poses[b"a"])[0] == pytest.approx(100.0, abs=0.5)
 
 
@@ -295,9 +246,9 @@ def test_silence_ends_a_session_and_its_characters(talk):
     talk.open(b"a")
     talk.say(b"a", spawn(1, 0))
     talk.tick(b"a")
-    talk.host.end_idle(SECOND)
+    talk.host.end_overdue(SECOND)
     assert talk.answers(b"a") == []
-    talk.host.end_idle(SECOND + 1)
+    talk.host.end_overdue(SECOND + 1)
     assert talk.answers(b"a") == [m.Bye(reason="idle")]
     assert not talk.host.simulation.world.active.any()
     assert talk.tick(b"a") == []
@@ -321,7 +272,7 @@ def test_the_same_commands_give_the_same_bytes():
         for sequence in range(2, 60):
             talk.say(b"a", walk(sequence, behaviour=SHOWN[sequence // 7 % 2]))
             talk.host.tick()
-            poses += [data for _, data in talk.host.poses(1)]
+            poses += [encode(pose) for _, pose in talk.host.poses(1)]
         runs.append(poses)
     assert runs[0] == runs[1]
 
@@ -330,3 +281,15 @@ def test_a_bundle_the_wire_cannot_hold_is_refused_at_the_start():
     bundle = replace(BUNDLE, digest="x" * 65)
     with pytest.raises(LocalError, match="digest"):
         Host(Simulation(bundle, 1), 30, LIMITS)
+
+
+def test_a_teleport_puts_a_character_elsewhere_without_what_smooths_it(talk):
+    talk.open(b"a")
+    talk.say(b"a", spawn(1, 0, behaviour="stop"), walk(2))
+    for _ in range(12):
+        talk.tick(b"a")
+    talk.say(b"a", m.Teleport(sequence=3, character=0, x=50.0, z=-20.0, yaw=2.0))
+    event, pose = talk.tick(b"a")
+    assert event == m.Event(tick=13, kind="teleported", character=0, sequence=3)
+    assert pose.acknowledged == 3
+    assert np.hypot(*(root_of(pose)[[0, 2]] - [50.0, -20.0])) < 0.5

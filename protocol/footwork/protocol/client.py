@@ -4,7 +4,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Iterator
-from typing import Self
+from typing import Self, TypeVar
 
 import zmq
 
@@ -12,10 +12,14 @@ from footwork.protocol import messages as m
 from footwork.protocol.address import is_ipv6, port_fits
 from footwork.protocol.codec import SERVER_MESSAGE_BYTES
 from footwork.protocol.connection import Connection, Role, State
-from footwork.protocol.errors import LocalError, RefusedError
+from footwork.protocol.curve import CurveKeys
+from footwork.protocol.errors import LOCK_STEP, LocalError, RefusedError
 
 DEFAULT_ADDRESS = "tcp://127.0.0.1:5555"
 _KEPT = 4096
+# Low, so that after a pause the poses are recent ones: what does not fit is the server's to drop.
+_QUEUE = 64
+_Any = TypeVar("_Any", bound=m.FromServer | None)
 
 
 class Client:
@@ -25,27 +29,43 @@ class Client:
         address: of the server, such as ``tcp://127.0.0.1:5555``.
         name: for the server's log.
         timeout: how long to wait for the welcome, seconds.
+        events: kinds of events to be told of beside those that answer a message, of ``messages.EVENTS``.
+        resume: the welcome's token of a session whose connection broke, to go on with it.
+        curve: the client's keys and the server's, for a server that lets in only those it knows.
 
     Raises:
         LocalError: for an address that is none.
         RefusedError: for a server that refuses the session, or none that answers in time (code ``timeout``).
     """
 
-    def __init__(self, address: str = DEFAULT_ADDRESS, *, name: str = "", timeout: float = 5.0) -> None:
+    def __init__(
+        self,
+        address: str = DEFAULT_ADDRESS,
+        *,
+        name: str = "",
+        timeout: float = 5.0,
+        events: tuple[str, ...] = (),
+        resume: bytes = b"",
+        curve: CurveKeys | None = None,
+    ) -> None:
         self._connection = Connection(Role.CLIENT)
         self._waiting: deque[m.FromServer] = deque(maxlen=_KEPT)
-        self._sequence = 0
         self._nonce = 0
         self._ping_every = float("inf")
         self._socket = zmq.Context.instance().socket(zmq.DEALER)
         self._socket.set(zmq.LINGER, 200)
         self._socket.set(zmq.MAXMSGSIZE, SERVER_MESSAGE_BYTES)
+        self._socket.set(zmq.RCVHWM, _QUEUE)
+        if curve is not None:
+            curve.put_on(self._socket)
         try:
             self._connect(address)
-            self.welcome = self._greet(name, timeout)
+            hello = m.Hello(version=m.PROTOCOL_VERSION, client=name, events=events, resume=resume)
+            self.welcome = self._greet(hello, timeout)
         except BaseException:
             self._socket.close(linger=0)
             raise
+        self._sequence = self.welcome.sequence
         self._ping_every = self.welcome.idle_seconds / 3.0 or float("inf")
 
     def _connect(self, address: str) -> None:
@@ -57,8 +77,8 @@ class Client:
         except zmq.ZMQError as error:
             raise LocalError(f"address {address!r}: {error.strerror}, expected such as {DEFAULT_ADDRESS}") from None
 
-    def _greet(self, name: str, timeout: float) -> m.Welcome:
-        self._send(m.Hello(version=m.PROTOCOL_VERSION, client=name))
+    def _greet(self, hello: m.Hello, timeout: float) -> m.Welcome:
+        self._send(hello)
         answer = self._require(timeout, "no answer to hello")
         if not isinstance(answer, m.Welcome):
             raise RefusedError("state", f"{type(answer).__name__.lower()} in answer to hello")
@@ -89,11 +109,38 @@ class Client:
         self._send(m.Correct(sequence=sequence, character=character, x=x, z=z, yaw=yaw))
         return sequence
 
+    def teleport(self, character: int, x: float, z: float, yaw: float) -> int:
+        """Put a character elsewhere, metres and radians, with nothing of where it was lingering."""
+        sequence = self._next()
+        self._send(m.Teleport(sequence=sequence, character=character, x=x, z=z, yaw=yaw))
+        return sequence
+
     def despawn(self, character: int) -> int:
         """Take a character out of the world."""
         sequence = self._next()
         self._send(m.Despawn(sequence=sequence, character=character))
         return sequence
+
+    def step(self, ticks: int = 1, timeout: float = 5.0) -> list[m.Pose]:
+        """Let a server in lock-step make ticks; the poses at the last one's own moment. Events are kept for later.
+
+        Raises:
+            RefusedError: where the server refused this or an earlier message, says bye, or is silent for ``timeout``
+                seconds.
+        """
+        self._send(m.Step(ticks=ticks))
+        poses, refused = [], None
+        while not isinstance(answer := self._arrival(timeout), m.Stepped):
+            if answer is None:
+                raise RefusedError("timeout", f"no tick in {timeout:g} s")
+            if isinstance(answer, m.Pose):
+                poses.append(answer)
+            elif isinstance(answer, m.Error) and answer.code != LOCK_STEP:
+                refused = refused or answer
+            else:
+                self._waiting.append(_accepted(answer))
+        _accepted(refused)
+        return poses
 
     def ping(self, timeout: float = 5.0) -> float:
         """Seconds until the pong came; messages that come meanwhile are kept for later.
@@ -149,12 +196,7 @@ class Client:
             RefusedError: where the server refuses a message or says bye.
             PeerError: for a server that does not keep to the protocol.
         """
-        message = self.receive(timeout)
-        if isinstance(message, m.Error):
-            raise RefusedError(message.code, message.message, message.sequence, message.valid)
-        if isinstance(message, m.Bye):
-            raise RefusedError(message.reason, "the server ended the session")
-        return message
+        return _accepted(self.receive(timeout))
 
     def _require(self, timeout: float, problem: str) -> m.FromServer:
         message = self.listen(timeout)
@@ -184,3 +226,12 @@ class Client:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+
+def _accepted(message: _Any) -> _Any:
+    """The message, unless it is a refusal or a bye."""
+    if isinstance(message, m.Error):
+        raise RefusedError(message.code, message.message, message.sequence, message.valid)
+    if isinstance(message, m.Bye):
+        raise RefusedError(message.reason, "the server ended the session")
+    return message

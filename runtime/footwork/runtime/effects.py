@@ -19,15 +19,18 @@ class Effects:
     Args:
         simulation: the world that the characters live in.
         limits: how many characters there may be.
+        make_room: called where the world is full, so that a character may leave it that nobody needs.
     """
 
-    def __init__(self, simulation: Simulation, limits: Limits) -> None:
+    def __init__(self, simulation: Simulation, limits: Limits, make_room: Callable[[], object]) -> None:
         self._simulation = simulation
         self._limits = limits
+        self._make_room = make_room
         self._by_type: dict[type, Callable[[Session, Any], str | None]] = {
             m.Spawn: self._spawn,
             m.Command: self._command,
             m.Correct: self._correct,
+            m.Teleport: self._teleport,
             m.Despawn: self._despawn,
         }
 
@@ -54,6 +57,8 @@ class Effects:
         if len(session.characters) >= most:
             raise PeerError(CHARACTERS, f"the session has its {most} characters already", sequence)
         if self._simulation.full:
+            self._make_room()
+        if self._simulation.full:
             raise PeerError(CHARACTERS, "the server has all the characters it takes", sequence)
         slot = self._simulation.spawn(message.x, message.z, message.yaw, message.behaviour)
         session.characters[number] = Character(slot, sequence)
@@ -78,12 +83,18 @@ class Effects:
         character.acknowledge(message.sequence)
         return "corrected"
 
+    def _teleport(self, session: Session, message: m.Teleport) -> str:
+        character = self._character(session, message)
+        self._simulation.teleport(character.slot, message.x, message.z, message.yaw)
+        character.acknowledge(message.sequence)
+        return "teleported"
+
     def _despawn(self, session: Session, message: m.Despawn) -> str:
         self._simulation.remove(self._character(session, message).slot)
         del session.characters[message.character]
         return "despawned"
 
-    def _character(self, session: Session, message: m.Command | m.Correct | m.Despawn) -> Character:
+    def _character(self, session: Session, message: m.Command | m.Correct | m.Teleport | m.Despawn) -> Character:
         character = session.characters.get(message.character)
         if character is None:
             numbers = ", ".join(map(str, sorted(session.characters))) or "none"

@@ -1,18 +1,20 @@
 """What a client is told on arrival."""
 
+from msgspec.structs import replace
+
 from footwork.motion.bundle import Bundle
 from footwork.protocol import messages as m
 from footwork.protocol.codec import CLIENT_MESSAGE_BYTES, encode_checked
 from footwork.runtime.limits import Limits
+from footwork.runtime.session import Session
 
 
-def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], tick: int, frame_rate: int, limits: Limits) -> m.Welcome:
-    """The welcome of a server that plays ``bundle``.
+def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], frame_rate: int, limits: Limits) -> m.Welcome:
+    """The welcome of a server that plays ``bundle``, as far as it is the same for all sessions.
 
     Args:
         bundle: what is played.
         behaviours: what commands may ask for.
-        tick: the tick last made.
         frame_rate: shown frames a second.
         limits: how much the client may ask for.
 
@@ -22,7 +24,7 @@ def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], tick: int, frame_rat
     skeleton = bundle.graph.skeleton
     welcome = m.Welcome(
         version=m.PROTOCOL_VERSION,
-        tick=tick,
+        tick=0,
         tick_rate=m.TICK_RATE,
         frame_rate=frame_rate,
         joints=skeleton.names,
@@ -37,6 +39,19 @@ def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], tick: int, frame_rat
         characters=limits.session_characters,
         message_bytes=CLIENT_MESSAGE_BYTES,
         messages_per_tick=limits.messages_per_tick,
+        resume_seconds=limits.resume_seconds,
     )
     encode_checked(welcome)
     return welcome
+
+
+def welcome_to(session: Session, welcome: m.Welcome, tick: int, *, resumed: bool) -> m.Welcome:
+    """The welcome of one session; ``resumed`` if it is not new."""
+    return replace(
+        welcome,
+        tick=tick,
+        token=session.token,
+        resumed=resumed,
+        sequence=session.sequence,
+        spawned=tuple(session.characters),
+    )

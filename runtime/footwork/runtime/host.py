@@ -1,22 +1,24 @@
 """Sessions and one simulation: messages come in, messages go out; no socket, no clock.
 
-The server drives it by the clock and a ROUTER socket; tests drive it by hand.
+The server drives it by the clock, or by its clients' steps, and a ROUTER socket; tests drive it by hand.
 """
 
 import logging
 from collections.abc import Iterator
 
-import msgspec
+from msgspec.structs import replace
 
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_client, encode
-from footwork.protocol.errors import NO_SESSION, SESSIONS, VERSION, PeerError
-from footwork.protocol.pose_arrays import packed
+from footwork.protocol.errors import LOCK_STEP, NO_SESSION, SESSIONS, VERSION, PeerError
 from footwork.runtime.effects import Effects
-from footwork.runtime.greeting import welcome_of
+from footwork.runtime.greeting import welcome_of, welcome_to
+from footwork.runtime.happenings import happenings
 from footwork.runtime.limits import Limits
-from footwork.runtime.session import Session
-from footwork.runtime.simulation import Simulation
+from footwork.runtime.pose_message import pose_message
+from footwork.runtime.roster import Roster
+from footwork.runtime.session import Sequenced, Session
+from footwork.runtime.simulation import PoseFrames, Simulation
 
 log = logging.getLogger(__name__)
 
@@ -30,20 +32,30 @@ class Host:
         simulation: the world that their characters live in.
         frame_rate: shown frames a second, a whole number of times the tick rate.
         limits: how much clients may ask for.
+        lockstep: whether ticks are made when clients ask for them.
+
+    Attributes:
+        sessions: those with a connection, by peer.
+        welcome: what all sessions are told on arrival.
 
     Raises:
         LocalError: for a bundle that the wire cannot hold.
     """
 
-    def __init__(self, simulation: Simulation, frame_rate: int, limits: Limits) -> None:
+    def __init__(self, simulation: Simulation, frame_rate: int, limits: Limits, *, lockstep: bool = False) -> None:
         self.simulation = simulation
         self.limits = limits
-        self.sessions: dict[bytes, Session] = {}
+        self.lockstep = lockstep
         self.sessions_begun = 0
+        self.resumed = 0
         self.refused = 0
+        self.welcome = replace(
+            welcome_of(simulation.bundle, simulation.behaviours, frame_rate, limits), lockstep=lockstep
+        )
+        self._roster = Roster(limits)
+        self.sessions = self._roster.here
         self._frames = frame_rate // m.TICK_RATE
-        self._effects = Effects(simulation, limits)
-        self._welcome = welcome_of(simulation.bundle, simulation.behaviours, 0, frame_rate, limits)
+        self._effects = Effects(simulation, limits, self._make_room)
         self._outbox: list[Outgoing] = []
         self._told: dict[bytes, int] = {}
 
@@ -62,25 +74,47 @@ class Host:
         if not isinstance(message, m.Hello):
             problem = f"{type(message).__name__.lower()} without a session, expected hello"
             raise PeerError(NO_SESSION, problem, getattr(message, "sequence", 0))
-        if message.version != m.PROTOCOL_VERSION:
-            self._turn_away(peer, PeerError(VERSION, f"version {message.version}, expected {m.PROTOCOL_VERSION}"))
-        elif len(self.sessions) >= self.limits.sessions:
-            self._turn_away(peer, PeerError(SESSIONS, f"the server has its {self.limits.sessions} sessions already"))
-        else:
-            self._begin(peer, message, now)
+        try:
+            if message.version != m.PROTOCOL_VERSION:
+                raise PeerError(VERSION, f"version {message.version}, expected {m.PROTOCOL_VERSION}")
+            self._resume(peer, message, now) if message.resume else self._begin(peer, message, now)
+        except PeerError as error:
+            self._turn_away(peer, error)
 
     def _begin(self, peer: bytes, hello: m.Hello, now: int) -> None:
-        session = self.sessions[peer] = Session(peer, self.limits, now)
-        session.connection.receive(encode(hello))
-        self._send(session, msgspec.structs.replace(self._welcome, tick=self.simulation.tick))
+        if self._roster.full and not self._make_room():
+            raise PeerError(SESSIONS, f"the server has its {self.limits.sessions} sessions already")
+        session = self._roster.begin(peer, now)
+        self._welcome(session, hello, resumed=False)
         self.sessions_begun += 1
         log.info("session %s of %r begins", peer.hex(), hello.client)
+
+    def _resume(self, peer: bytes, hello: m.Hello, now: int) -> None:
+        session, former = self._roster.resume(peer, hello.resume, now)
+        if former is not None:
+            self._outbox.append((former, encode(m.Bye(reason="resumed"))))
+        self._welcome(session, hello, resumed=True)
+        self.resumed += 1
+        log.info("session %s of %r is resumed", peer.hex(), hello.client)
+
+    def _welcome(self, session: Session, hello: m.Hello, *, resumed: bool) -> None:
+        session.greet(hello)
+        self._send(session, welcome_to(session, self.welcome, self.simulation.tick, resumed=resumed))
 
     def _answer(self, session: Session, message: m.FromClient | None) -> None:
         if isinstance(message, m.Ping):
             self._send(session, m.Pong(nonce=message.nonce, tick=self.simulation.tick))
+        elif isinstance(message, m.Step):
+            self._ask(session, message.ticks)
         elif isinstance(message, m.Bye):
             self.forget(session.peer, "its own bye")
+
+    def _ask(self, session: Session, ticks: int) -> None:
+        if not self.lockstep:
+            raise PeerError(LOCK_STEP, "the server makes its ticks by a clock")
+        if session.asked:
+            raise PeerError(LOCK_STEP, f"{session.asked} ticks of the last step are still to be made")
+        session.asked = ticks
 
     def refuse(self, peer: bytes, error: PeerError) -> bool:
         """Tell a peer what was wrong, unless it (or too many others) were told often enough within this tick."""
@@ -108,60 +142,105 @@ class Host:
         for peer in list(self.sessions):
             self.end(peer, reason)
 
-    def end_idle(self, now: int) -> None:
-        """Say bye to those that were silent for too long."""
+    def end_overdue(self, now: int) -> None:
+        """Say bye to those that were silent for too long; wait no more for those that did not come back in time."""
         for peer in [session.peer for session in self.sessions.values() if session.idle(now)]:
             self.end(peer, "idle")
+        for session in self._roster.give_up_overdue(now):
+            self._remove_characters(session, "its client did not come back")
 
     def forget(self, peer: bytes, reason: str) -> None:
         """Drop a session, where there is one, and take its characters out of the world."""
-        session = self.sessions.pop(peer, None)
+        session = self._roster.remove(peer)
+        if session is not None:
+            self._remove_characters(session, reason)
+
+    def lose(self, peer: bytes, now: int) -> None:
+        """Let the session of a peer whose connection is gone, where there is one, wait to be resumed."""
+        session = self._roster.part(peer, now)
         if session is None:
             return
         for character in session.characters.values():
+            self.simulation.stand(character.slot)
+        log.info("session %s has lost its connection", peer.hex())
+
+    def _make_room(self) -> bool:
+        """Wait no more for whom was waited for longest; whether there was one."""
+        session = self._roster.give_up_oldest()
+        if session is not None:
+            self._remove_characters(session, "its room is needed")
+        return session is not None
+
+    def _remove_characters(self, session: Session, reason: str) -> None:
+        for character in session.characters.values():
             self.simulation.remove(character.slot)
-        log.info("session %s ends: %s", peer.hex(), reason)
+        log.info("session %s ends: %s", session.peer.hex(), reason)
+
+    def count_anew(self) -> None:
+        """Begin to count what clients may do within a tick; ``tick`` does so too."""
+        self._told.clear()
+        for session in self.sessions.values():
+            session.count_anew()
 
     def tick(self) -> None:
         """Let what is due take effect, then make one tick."""
         self._told.clear()
         for session in self.sessions.values():
             for message in session.due(self.simulation.tick + 1):
-                try:
-                    event = self._effects.apply(session, message)
-                except PeerError as error:
-                    self.refuse(session.peer, error)
-                else:
-                    if event is not None:
-                        self._send(session, event)
+                self._apply(session, message)
         self.simulation.step()
+        for session in self.sessions.values():
+            for event in happenings(session, self.simulation):
+                self._send(session, event)
+
+    def _apply(self, session: Session, message: Sequenced) -> None:
+        try:
+            event = self._effects.apply(session, message)
+        except PeerError as error:
+            self.refuse(session.peer, error)
+        else:
+            if event is not None:
+                self._send(session, event)
+
+    def step(self) -> bool:
+        """In lock-step: make a tick if all that have characters have asked for it; whether one was made.
+
+        Whose last one it was gets its poses at the tick's own moment, and is told.
+        """
+        asking = [session for session in self.sessions.values() if session.asked]
+        if not asking or any(session.characters and not session.asked for session in self.sessions.values()):
+            return False
+        self.tick()
+        for session in asking:
+            session.asked -= 1
+        done = [session for session in asking if not session.asked]
+        if done:
+            self._answer_steps(done)
+        return True
+
+    def _answer_steps(self, sessions: list[Session]) -> None:
+        shown = self.simulation.show(1.0)
+        for session in sessions:
+            for pose in self._poses(session, shown, self._frames):
+                self._send(session, pose)
+            self._send(session, m.Stepped(tick=self.simulation.tick))
 
     def outgoing(self) -> list[Outgoing]:
         """Answers that waited, oldest first; they wait no more."""
         outbox, self._outbox = self._outbox, []
         return outbox
 
-    def poses(self, frame: int) -> Iterator[Outgoing]:
-        """Poses of all characters at shown frame ``frame`` = 1, 2 ... frame_rate / 30 of the tick."""
+    def poses(self, frame: int) -> Iterator[tuple[bytes, m.Pose]]:
+        """Peers and poses of all characters at shown frame ``frame`` = 1, 2 ... frame_rate / 30 of the tick."""
         shown = self.simulation.show(frame / self._frames)
-        tick = self.simulation.tick
         for session in list(self.sessions.values()):  # whoever sends these may find a session gone
-            for number, character in session.characters.items():
-                slot = character.slot
-                pose = m.Pose(
-                    tick=tick,
-                    frame=frame,
-                    character=number,
-                    acknowledged=character.acknowledged,
-                    facing=shown.facing[slot].item(),
-                    behaviour=shown.behaviour[slot].item(),
-                    clip=shown.clip[slot].item(),
-                    source_frame=shown.source_frame[slot].item(),
-                    transition=shown.transition[slot].item(),
-                    root=packed(shown.root[slot]),
-                    rotations=packed(shown.rotations[slot]),
-                )
-                yield session.peer, encode(pose)
+            for pose in self._poses(session, shown, frame):
+                yield session.peer, pose
+
+    def _poses(self, session: Session, shown: PoseFrames, frame: int) -> Iterator[m.Pose]:
+        tick = self.simulation.tick
+        for number, who in session.characters.items():
+            yield pose_message(shown, who.slot, tick=tick, frame=frame, number=number, acknowledged=who.acknowledged)
 
     def _send(self, session: Session, message: m.FromServer) -> None:
         self._outbox.append((session.peer, session.connection.send(message)))

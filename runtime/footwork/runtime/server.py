@@ -1,7 +1,8 @@
 """The server: a socket, a clock and a host of sessions.
 
 Between two deadlines it only listens. At a deadline it takes what has come in so far, lets it take effect, makes the
-tick and sends the poses; a command that came in before a deadline is acknowledged by that tick's first pose.
+tick and sends the poses; a command that came in before a deadline is acknowledged by that tick's first pose. In
+lock-step there are no deadlines: it only listens, and makes a tick as soon as its clients have asked for it.
 """
 
 import threading
@@ -12,10 +13,14 @@ from typing import Any
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
+from footwork.protocol.codec import encode
 from footwork.protocol.errors import MALFORMED, PeerError
+from footwork.protocol.messages import Bye
 from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.collector import collect_young, held_collector
+from footwork.runtime.delivery import Delivery
 from footwork.runtime.host import Host
+from footwork.runtime.key_folder import KeyFolder
 from footwork.runtime.limits import Limits
 from footwork.runtime.ring import Ring
 from footwork.runtime.router import DEFAULT_BIND, Router, Sent
@@ -26,6 +31,12 @@ _MILLISECOND = 1_000_000
 _GRACE = 8
 """At a deadline, what has come in is taken for up to this part of a frame period, should there be so much of it."""
 _FAREWELL = 0.5
+_RETRY_MS = 2
+"""How often what the transport did not take is offered again."""
+_STRANGERS_WAIT = 10 * SECOND
+"""For how long a last message is offered to a peer whose session is over."""
+_LOCK_STEP_TIDY = 1000
+"""Ticks in lock-step from one collection of garbage to the next, should there be no pause before."""
 
 
 class Server:
@@ -39,6 +50,8 @@ class Server:
         rate: shown frames a second, 30, 60 or 120; at 30n the new tick is shown at 1/n, 2/n ... 1.
         limits: how much clients may ask for.
         inertialise: whether transitions are smoothed.
+        lockstep: make no tick by a clock, but each once all clients with characters have asked for it.
+        keys: let in only clients whose CURVE keys are in this folder; without it whoever reaches the address.
 
     Raises:
         InputError: for another rate, an address that cannot be bound or a bundle without a steering table.
@@ -53,6 +66,8 @@ class Server:
         rate: int = 60,
         limits: Limits | None = None,
         inertialise: bool = True,
+        lockstep: bool = False,
+        keys: KeyFolder | None = None,
     ) -> None:
         if rate not in RATES:
             raise InputError(f"{rate} frames a second, expected one of {RATES}", "rate")
@@ -60,11 +75,12 @@ class Server:
         self.rate = rate
         self.ticks = 0
         self.late_ticks = 0
-        self.dropped = 0
         self.tick_us = Ring()
         self.lateness_us = Ring()
-        self._host = Host(Simulation(bundle, limits.characters, inertialise=inertialise), rate, limits)
-        self._router = Router(bind)
+        simulation = Simulation(bundle, limits.characters, inertialise=inertialise)
+        self._host = Host(simulation, rate, limits, lockstep=lockstep)
+        self._router = Router(bind, keys=keys, most=limits.connections)
+        self._delivery = Delivery(self._router.send, self._host.sessions.__contains__, limits.waiting_messages)
         self._clock = FrameClock(rate, now_ns())
         self._stopping = False
         self._ended = threading.Event()
@@ -81,7 +97,7 @@ class Server:
         """
         try:
             with held_collector():
-                self._loop(until)
+                self._step_in_lock(until) if self._host.lockstep else self._loop(until)
         finally:
             self.close()
 
@@ -107,8 +123,11 @@ class Server:
             "late_ticks": self.late_ticks,
             "tick_us": {"p50": self.tick_us.percentile(50), "p99": self.tick_us.percentile(99)},
             "sessions": self._host.sessions_begun,
+            "resumed": self._host.resumed,
             "refused": self._host.refused,
-            "dropped": self.dropped,
+            "dropped": self._delivery.dropped,
+            "cut": self._router.connections.cut,
+            "denied": self._router.denied,
             "skipped_frames": self._clock.skipped,
         }
 
@@ -132,9 +151,10 @@ class Server:
         while (left := deadline - now_ns()) > 0:
             if left < _MILLISECOND:
                 time.sleep(left / SECOND)
-            elif self._router.poll(left // _MILLISECOND):
+            elif self._router.poll(min(left // _MILLISECOND, self._patience)):
                 self._drain(deadline)
                 self._flush()
+            self._retry()
         self._drain(now_ns() + self._clock.period // _GRACE)
 
     def _drain(self, end: int) -> None:
@@ -150,28 +170,75 @@ class Server:
         start = now_ns()
         self.lateness_us.add((start - self._clock.deadline) / 1000.0)
         if frame == 1:
-            self._host.end_idle(start)
+            self._host.end_overdue(start)
             self._host.tick()
         self._flush()
-        for peer, data in self._host.poses(frame):
-            self._send(peer, data)
+        self._delivery.begin_frame()
+        for peer, pose in self._host.poses(frame):
+            if self._delivery.show(peer, pose) is Sent.GONE:
+                self._lose(peer)
+        self._retry()
         done = now_ns()
         if frame == 1:
             self.ticks += 1
             self.late_ticks += done > self._clock.deadline + self._clock.period
         return done - start
 
+    def _step_in_lock(self, until: Callable[[], bool] | None) -> None:
+        """Listen, and make each tick as soon as all have asked for it."""
+        renewed = now_ns()
+        while not (self._stopping or (until is not None and until())):
+            if self._router.poll(self._patience):
+                self._drain(now_ns() + SECOND // TICK_RATE)
+            self._make_steps()
+            self._retry()
+            if now_ns() - renewed > SECOND // TICK_RATE:
+                renewed = now_ns()
+                self._host.count_anew()
+                self._host.end_overdue(renewed)
+                self._router.look()
+
+    def _make_steps(self) -> None:
+        self._flush()
+        start = now_ns()
+        while not self._stopping and self._host.step():
+            self._flush()
+            done = now_ns()
+            self.tick_us.add((done - start) / 1000.0)
+            self.ticks += 1
+            if self.ticks % _LOCK_STEP_TIDY == 0:
+                collect_young()
+            start = now_ns()
+
+    @property
+    def _patience(self) -> int:
+        """How long to listen without looking elsewhere, milliseconds."""
+        return _RETRY_MS if self._delivery.waiting else 1000 // TICK_RATE
+
     def _flush(self) -> None:
         for peer, data in self._host.outgoing():
-            self._send(peer, data)
+            sent = self._delivery.tell(peer, data)
+            if sent is Sent.GONE:
+                self._lose(peer)
+            elif sent is Sent.DROPPED and peer in self._host.sessions:
+                self._end_slow(peer)
 
-    def _send(self, peer: bytes, data: bytes) -> None:
-        sent = self._router.send(peer, data)
-        if sent is Sent.DROPPED:
-            self.dropped += 1
-        elif sent is Sent.GONE:
-            self._host.forget(peer, "the connection is gone")
+    def _end_slow(self, peer: bytes) -> None:
+        """End a session that reads nothing; its bye takes the place of what waits for it."""
+        self._host.forget(peer, "slow")
+        self._delivery.say_last(peer, encode(Bye(reason="slow")))
+
+    def _retry(self) -> None:
+        if self._delivery.waiting:
+            for peer in self._delivery.retry():
+                self._lose(peer)
+            self._delivery.forget_strangers(now_ns(), _STRANGERS_WAIT)
+
+    def _lose(self, peer: bytes) -> None:
+        self._delivery.forget(peer)
+        self._host.lose(peer, now_ns())
 
     def _tidy(self) -> None:
+        self._router.look()
         if self.ticks % TICK_RATE == 0:
             collect_young()

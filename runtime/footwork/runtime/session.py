@@ -1,14 +1,17 @@
 """One client: its state, its inbox by tick, its characters and what was acknowledged. No socket here."""
 
+import secrets
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from footwork.protocol import messages as m
+from footwork.protocol.codec import encode
 from footwork.protocol.connection import Connection, Role
 from footwork.protocol.errors import RATE, STALE, TICK, PeerError
 from footwork.runtime.limits import Limits
 
-Sequenced = m.Spawn | m.Command | m.Correct | m.Despawn
+Sequenced = m.Spawn | m.Command | m.Correct | m.Teleport | m.Despawn
+TOKEN_BYTES = 16
 
 
 @dataclass
@@ -18,10 +21,12 @@ class Character:
     Args:
         slot: its place in the world's arrays.
         acknowledged: highest sequence of its messages that took effect.
+        behaviour: the behaviour that the client was told of, none yet before its first tick.
     """
 
     slot: int
     acknowledged: int = 0
+    behaviour: int | None = None
 
     def acknowledge(self, sequence: int) -> None:
         """Note that a message took effect; one that waited for a later tick does not lower the number."""
@@ -35,17 +40,39 @@ class Session:
         peer: the transport's name for the client.
         limits: how much it may ask for.
         now: monotonic nanoseconds.
+
+    Attributes:
+        token: resumes it after its connection broke.
+        events: kinds of events that the client asked for.
+        sequence: the highest that was taken from it.
+        asked: in lock-step, how many ticks it waits for.
     """
 
     def __init__(self, peer: bytes, limits: Limits, now: int) -> None:
         self.peer = peer
-        self.connection = Connection(Role.SERVER)
+        self.token = secrets.token_bytes(TOKEN_BYTES)
         self.characters: dict[int, Character] = {}
-        self.heard = now
+        self.sequence = 0
         self._limits = limits
+        self._begin(now)
+
+    def _begin(self, now: int) -> None:
+        self.connection = Connection(Role.SERVER)
+        self.events: frozenset[str] = frozenset()
+        self.heard = now
+        self.asked = 0
         self._inbox: dict[int, list[Sequenced]] = {}
-        self._sequence = 0
         self._taken = 0
+
+    def greet(self, hello: m.Hello) -> None:
+        """Take the hello of a new connection."""
+        self.connection.receive(encode(hello))
+        self.events = frozenset(hello.events).intersection(m.EVENTS)
+
+    def resume(self, peer: bytes, now: int) -> None:
+        """Go on with another connection; what had come in and not taken effect is dropped."""
+        self.peer = peer
+        self._begin(now)
 
     def receive(self, data: bytes, tick: int, now: int) -> m.FromClient | None:
         """The message in ``data`` if it is to be answered at once, None where it now waits in the inbox.
@@ -69,21 +96,25 @@ class Session:
         return None
 
     def _keep(self, message: Sequenced, tick: int) -> None:
-        if message.sequence <= self._sequence:
-            problem = f"sequence {message.sequence}, expected above {self._sequence}"
+        if message.sequence <= self.sequence:
+            problem = f"sequence {message.sequence}, expected above {self.sequence}"
             raise PeerError(STALE, problem, message.sequence)
         due = max(tick + 1, getattr(message, "tick", 0))
         last = tick + 1 + self._limits.ahead_ticks
         if due > last:
             raise PeerError(TICK, f"tick {due}, expected at most {last}", message.sequence)
-        self._sequence = message.sequence
+        self.sequence = message.sequence
         self._inbox.setdefault(due, []).append(message)
 
     def due(self, tick: int) -> Iterator[Sequenced]:
         """Take out what is for ``tick`` or earlier, in order, and begin to count the next tick's messages."""
-        self._taken = 0
+        self.count_anew()
         for waiting in sorted(key for key in self._inbox if key <= tick):
             yield from self._inbox.pop(waiting)
+
+    def count_anew(self) -> None:
+        """Begin to count the messages of another tick."""
+        self._taken = 0
 
     def idle(self, now: int) -> bool:
         """Whether the client has been silent for too long."""

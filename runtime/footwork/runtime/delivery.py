@@ -1,0 +1,130 @@
+"""What leaves for clients: in order and whole, but for the poses that a slow reader has no use for any more.
+
+While the transport takes all, nothing is kept here. Once it takes no more for a peer, that peer has a backlog: messages
+in order, up to a bound, and of every character the newest pose, which counts those that were dropped before it.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from msgspec.structs import replace
+
+from footwork.protocol.codec import encode
+from footwork.protocol.messages import Pose
+from footwork.runtime.router import Sent
+
+
+@dataclass
+class Backlog:
+    """What waits for one peer.
+
+    Args:
+        messages: all but poses, oldest first.
+        poses: the newest of each character, by number.
+        dropped: of characters without a pose of this frame as yet, how many were dropped since the last one sent.
+        stale_since: when it was first seen that the peer has no session, nanoseconds.
+        closed: whether nothing may follow what waits.
+    """
+
+    messages: deque[bytes] = field(default_factory=deque)
+    poses: dict[int, Pose] = field(default_factory=dict)
+    dropped: dict[int, int] = field(default_factory=dict)
+    stale_since: int | None = None
+    closed: bool = False
+
+
+class Delivery:
+    """Sends to all peers.
+
+    Args:
+        send: hands a message to the transport.
+        known: whether a peer has a session; for others nothing is kept that the transport does not take.
+        most: how many messages may wait for a peer, poses apart.
+
+    Attributes:
+        dropped: poses dropped, and messages to peers without a session.
+    """
+
+    def __init__(self, send: Callable[[bytes, bytes], Sent], known: Callable[[bytes], bool], most: int) -> None:
+        self.dropped = 0
+        self._send = send
+        self._known = known
+        self._most = most
+        self._backlogs: dict[bytes, Backlog] = {}
+
+    @property
+    def waiting(self) -> bool:
+        """Whether anything waits."""
+        return bool(self._backlogs)
+
+    def tell(self, peer: bytes, data: bytes) -> Sent:
+        """Send a message now or later; ``DROPPED`` where too many wait already, or the peer has no session."""
+        backlog = self._backlogs.get(peer)
+        if backlog is None:
+            sent = self._send(peer, data)
+            if sent is not Sent.DROPPED:
+                return sent
+            if not self._known(peer):
+                self.dropped += 1
+                return sent
+            backlog = self._backlogs[peer] = Backlog()
+        if backlog.closed or len(backlog.messages) >= self._most:
+            return Sent.DROPPED
+        backlog.messages.append(data)
+        return Sent.QUEUED
+
+    def say_last(self, peer: bytes, data: bytes) -> None:
+        """Let a message take the place of all that waits for a peer, and of what would follow."""
+        self._backlogs[peer] = Backlog(messages=deque([data]), closed=True)
+
+    def begin_frame(self) -> None:
+        """Give up the poses that wait: those of another frame are to follow."""
+        for backlog in self._backlogs.values():
+            self.dropped += len(backlog.poses)
+            backlog.dropped = {number: pose.lost + 1 for number, pose in backlog.poses.items()}
+            backlog.poses = {}
+
+    def show(self, peer: bytes, pose: Pose) -> Sent:
+        """Send a pose, or keep it until there is room or another frame begins."""
+        backlog = self._backlogs.get(peer)
+        if backlog is None:
+            sent = self._send(peer, encode(pose))
+            if sent is Sent.DROPPED:
+                self._backlogs[peer] = Backlog(poses={pose.character: pose})
+            return sent
+        dropped = backlog.dropped.pop(pose.character, 0)
+        backlog.poses[pose.character] = replace(pose, lost=dropped) if dropped else pose
+        return Sent.QUEUED
+
+    def retry(self) -> list[bytes]:
+        """Send what waits, as far as there is room; the peers that are gone."""
+        return [peer for peer, backlog in list(self._backlogs.items()) if self._retry(peer, backlog) is Sent.GONE]
+
+    def _retry(self, peer: bytes, backlog: Backlog) -> Sent:
+        while backlog.messages:
+            sent = self._send(peer, backlog.messages[0])
+            if sent is not Sent.QUEUED:
+                return sent
+            backlog.messages.popleft()
+        for number in list(backlog.poses):
+            sent = self._send(peer, encode(backlog.poses[number]))
+            if sent is not Sent.QUEUED:
+                return sent
+            del backlog.poses[number]
+        del self._backlogs[peer]
+        return Sent.QUEUED
+
+    def forget(self, peer: bytes) -> None:
+        """Keep nothing for a peer."""
+        self._backlogs.pop(peer, None)
+
+    def forget_strangers(self, now: int, patience: int) -> None:
+        """Keep nothing for peers that have had no session for ``patience`` nanoseconds."""
+        for peer, backlog in list(self._backlogs.items()):
+            if self._known(peer):
+                continue
+            if backlog.stale_since is None:
+                backlog.stale_since = now
+            elif now - backlog.stale_since > patience:
+                del self._backlogs[peer]

@@ -1,0 +1,22 @@
+"""What happened to a session's characters in a tick, for clients that asked to be told."""
+
+from collections.abc import Iterator
+
+from footwork.protocol import messages as m
+from footwork.runtime.session import Session
+from footwork.runtime.simulation import Simulation
+
+BEHAVIOUR, TRANSITION = m.EVENTS
+
+
+def happenings(session: Session, simulation: Simulation) -> Iterator[m.Event]:
+    """The events of the tick last made, of the kinds that the session's client asked for."""
+    if not session.events:
+        return
+    for number, character in session.characters.items():
+        behaviour = simulation.behaviour[character.slot].item()
+        if TRANSITION in session.events and simulation.transition[character.slot]:
+            yield m.Event(tick=simulation.tick, kind=TRANSITION, character=number, behaviour=behaviour)
+        if BEHAVIOUR in session.events and behaviour != character.behaviour:
+            yield m.Event(tick=simulation.tick, kind=BEHAVIOUR, character=number, behaviour=behaviour)
+        character.behaviour = behaviour

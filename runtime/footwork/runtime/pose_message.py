@@ -1,0 +1,22 @@
+"""The pose message of one character of what is shown."""
+
+from footwork.protocol.messages import Pose
+from footwork.protocol.pose_arrays import packed
+from footwork.runtime.simulation import PoseFrames
+
+
+def pose_message(shown: PoseFrames, slot: int, *, tick: int, frame: int, number: int, acknowledged: int = 0) -> Pose:
+    """What ``shown`` has of a slot, at shown frame ``frame`` of ``tick``, for whom the character has ``number``."""
+    return Pose(
+        tick=tick,
+        frame=frame,
+        character=number,
+        acknowledged=acknowledged,
+        facing=shown.facing[slot].item(),
+        behaviour=shown.behaviour[slot].item(),
+        clip=shown.clip[slot].item(),
+        source_frame=shown.source_frame[slot].item(),
+        transition=shown.transition[slot].item(),
+        root=packed(shown.root[slot]),
+        rotations=packed(shown.rotations[slot]),
+    )
