@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from footwork.cli.main import BAD_INPUT, main
 from footwork.motion.body import default_body
 from footwork.motion.bundle import read_bundle
 from footwork.motion.bvh import write_bvh
@@ -22,6 +23,31 @@ def footwork(*arguments: object, status: int = 0) -> subprocess.CompletedProcess
     assert done.returncode == status, done.stderr
     assert "Traceback" not in done.stderr
     return done
+
+
+@pytest.fixture
+def refused(capsys):
+    """What is said on stderr about arguments that are bad, without starting a process for each."""
+
+    def said(*arguments: object) -> str:
+        assert main([str(one) for one in arguments]) == BAD_INPUT
+        shown = capsys.readouterr()
+        assert shown.out == ""
+        assert shown.err.splitlines()[-1].startswith("footwork: ")
+        return shown.err
+
+    return said
+
+
+@pytest.fixture
+def reported(capsys):
+    """The JSON object that a subcommand prints, without starting a process for it."""
+
+    def report(*arguments: object) -> dict:
+        assert main([*map(str, arguments), "--json"]) == 0
+        return json.loads(capsys.readouterr().out)
+
+    return report
 
 
 @pytest.fixture(scope="module")
@@ -61,40 +87,46 @@ def test_building_twice_gives_the_same_bytes(captures, bundle, tmp_path):
     assert (tmp_path / "again.footwork").read_bytes() == bundle[0].read_bytes()
 
 
-def test_inspect_says_what_is_in_a_bundle_and_draws_it(bundle, tmp_path):
-    report = json.loads(footwork("inspect", bundle[0], "--plots", tmp_path / "plots", "--json").stdout)
+def test_inspect_says_what_is_in_a_bundle_and_draws_it(reported, bundle, tmp_path):
+    report = reported("inspect", bundle[0], "--plots", tmp_path / "plots")
     assert report["nodes"] == bundle[1]["scc_nodes"]
     assert report["plots"]
     assert all(Path(picture).read_bytes().startswith(b"\x89PNG") for picture in report["plots"])
 
 
-def test_inspect_looks_at_motions_before_anything_is_built(captures):
+def test_inspect_looks_at_motions_before_anything_is_built(reported, captures):
     folder, labels = captures
-    report = json.loads(footwork("inspect", folder, "--labels", labels, "--json").stdout)
+    report = reported("inspect", folder, "--labels", labels)
     assert report["clips"] == len(CLIPS)
     assert report["labels"]["walk"] > 0
 
 
-def test_lengths_of_a_bvh_may_be_in_another_unit(captures, tmp_path):
+def test_lengths_of_a_bvh_may_be_in_another_unit(reported, refused, tmp_path):
     clip = next(clip for clip in embedded_clips() if clip.name == "walk_normal")
     write_bvh(tmp_path / "walk.bvh", clip, unit=1.0)
-    assert "another unit" in footwork("inspect", tmp_path, status=2).stderr
-    report = json.loads(footwork("inspect", tmp_path, "--bvh-unit", "1", "--json").stdout)
+    assert "another unit" in refused("inspect", tmp_path)
+    report = reported("inspect", tmp_path, "--bvh-unit", "1")
     assert report["frames"] == clip.frame_count
 
 
-def test_score_replays_traces(bundle, tmp_path):
+def test_score_replays_traces(reported, bundle, tmp_path):
     rows = ["tick,forward,strafe,run,yaw_delta_deg,attack,use"]
     rows += [f"{tick},1,0,0,{1.40625 if 100 < tick < 160 else 0},0,0" for tick in range(350)]
     (tmp_path / "trace.csv").write_text("\n".join(rows) + "\n")
-    report = json.loads(footwork("score", bundle[0], "--traces", tmp_path, "--json").stdout)
+    report = reported("score", bundle[0], "--traces", tmp_path)
     assert report["total"] == pytest.approx(report["control"] * report["transition"])
     assert len(report["traces"]) == 1
 
 
-def test_demo_steers_over_a_socket(tmp_path):
-    done = footwork("demo", "--headless", "--seconds", "3", "--cache", tmp_path, "--json")
-    report = json.loads(done.stdout)
+@pytest.fixture(scope="module")
+def played(tmp_path_factory):
+    """The report of a demo and the folder where it keeps its bundle."""
+    cache = tmp_path_factory.mktemp("cache")
+    return json.loads(footwork("demo", "--headless", "--seconds", "3", "--cache", cache, "--json").stdout), cache
+
+
+def test_demo_steers_over_a_socket(played):
+    report, _ = played
     fields = {"frames", "nodes", "edges", "scc_fraction", "ticks", "late_ticks"}
     assert set(report) >= fields | {"tick_us", "command_to_pose_ms", "heading_error_deg"}
     assert report["ticks"] >= 85
@@ -102,13 +134,19 @@ def test_demo_steers_over_a_socket(tmp_path):
     assert 0.0 < report["command_to_pose_ms"]["p50"] < 1000.0
 
 
-def test_a_damaged_bundle_in_the_cache_is_built_anew(tmp_path):
-    footwork("demo", "--headless", "--seconds", "0.5", "--cache", tmp_path)
-    [kept] = tmp_path.glob("*.footwork")
-    whole = kept.read_bytes()
-    kept.write_bytes(whole[:-7])
+def test_a_damaged_bundle_in_the_cache_is_built_anew(played, tmp_path):
+    [kept] = played[1].glob("*.footwork")
+    whole, damaged = kept.read_bytes(), tmp_path / kept.name
+    damaged.write_bytes(whole[:-7])
     assert "building anew" in footwork("demo", "--headless", "--seconds", "0.5", "--cache", tmp_path).stderr
-    assert kept.read_bytes() == whole
+    assert damaged.read_bytes() == whole
+
+
+def test_a_process_ends_on_bad_input_with_one_line_and_status_two():
+    done = footwork("inspect", "/no/such/bundle", status=2)
+    assert "/no/such/bundle" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert done.stdout == ""
 
 
 @pytest.mark.parametrize(
@@ -134,47 +172,44 @@ def test_a_damaged_bundle_in_the_cache_is_built_anew(tmp_path):
         (("jump",), "jump"),
     ],
 )
-def test_bad_input_is_one_line_and_status_two(arguments, message):
-    done = footwork(*arguments, status=2)
-    assert message in done.stderr
-    assert done.stderr.count("\n") == 1
-    assert done.stdout == ""
+def test_bad_input_is_one_line_and_status_two(refused, arguments, message):
+    said = refused(*arguments)
+    assert message in said
+    assert said.count("\n") == 1
 
 
-def test_a_threshold_that_connects_nothing_is_answered_with_one_that_would(captures, tmp_path):
+def test_a_threshold_that_connects_nothing_is_answered_with_one_that_would(refused, captures, tmp_path):
     folder, labels = captures
     out = tmp_path / "x.footwork"
-    done = footwork("build", folder, "--labels", labels, "--out", out, "--threshold", "1e-9", status=2)
-    assert "a threshold of" in done.stderr
+    assert "a threshold of" in refused("build", folder, "--labels", labels, "--out", out, "--threshold", "1e-9")
     assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("seconds", ["-3", "nan", "0"])
-def test_serve_refuses_a_time_that_never_ends_or_never_begins(bundle, seconds):
-    assert "expected more than 0" in footwork("serve", bundle[0], "--seconds", seconds, status=2).stderr
+def test_serve_refuses_a_time_that_never_ends_or_never_begins(refused, bundle, seconds):
+    assert "expected more than 0" in refused("serve", bundle[0], "--seconds", seconds)
 
 
 @pytest.mark.parametrize("rate", ["0", "50"])
-def test_serve_refuses_a_rate_it_cannot_keep(bundle, rate):
-    assert "expected one of (30, 60, 120)" in footwork("serve", bundle[0], "--rate", rate, status=2).stderr
+def test_serve_refuses_a_rate_it_cannot_keep(refused, bundle, rate):
+    assert "expected one of (30, 60, 120)" in refused("serve", bundle[0], "--rate", rate)
 
 
-def test_serve_refuses_an_address_that_cannot_be_bound(bundle):
-    assert "tcp://nowhere" in footwork("serve", bundle[0], "--bind", "tcp://nowhere", status=2).stderr
+def test_serve_refuses_an_address_that_cannot_be_bound(refused, bundle):
+    assert "tcp://nowhere" in refused("serve", bundle[0], "--bind", "tcp://nowhere")
 
 
-def test_a_truncated_capture_names_file_and_line(captures, tmp_path):
+def test_a_truncated_capture_names_file_and_line(refused, captures, tmp_path):
     folder, _ = captures
     text = (folder / "idle.bvh").read_text()
     (tmp_path / "idle.bvh").write_text(text[: len(text) // 2])
-    done = footwork("build", tmp_path, "--out", tmp_path / "x.footwork", status=2)
-    assert "idle.bvh:" in done.stderr
+    assert "idle.bvh:" in refused("build", tmp_path, "--out", tmp_path / "x.footwork")
 
 
-def test_a_clip_shorter_than_the_window_is_named(tmp_path):
+def test_a_clip_shorter_than_the_window_is_named(refused, tmp_path):
     body = default_body()
     clip = next(clip for clip in embedded_clips() if clip.name == "idle").cut(0, 5)
     write_bvh(tmp_path / "short.bvh", Clip(clip.name, body, clip.fps, clip.root_position, clip.rotations))
-    done = footwork("build", tmp_path, "--out", tmp_path / "x.footwork", status=2)
-    assert "short.bvh" in done.stderr
-    assert "window" in done.stderr
+    said = refused("build", tmp_path, "--out", tmp_path / "x.footwork")
+    assert "short.bvh" in said
+    assert "window" in said

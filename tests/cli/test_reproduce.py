@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from footwork.cli.main import BAD_INPUT, main
 from reproduction_motions import write_motion_sets
 
 pytestmark = pytest.mark.timeout(250)
@@ -17,6 +18,17 @@ def footwork(*arguments: object, status: int = 0) -> subprocess.CompletedProcess
     assert done.returncode == status, done.stderr
     assert "Traceback" not in done.stderr
     return done
+
+
+@pytest.fixture
+def reproduced(capsys):
+    """What is printed, in this process, and on stderr."""
+
+    def printed(*arguments: object, status: int = 0) -> tuple[str, str]:
+        assert main(["reproduce", *map(str, arguments)]) == status
+        return tuple(capsys.readouterr())
+
+    return printed
 
 
 @pytest.fixture(scope="module")
@@ -33,8 +45,8 @@ def test_it_prints_what_it_writes(motions, tmp_path):
     assert done.stderr == ""
 
 
-def test_without_json_it_prints_a_verdict_for_each_row(motions, tmp_path):
-    printed = footwork("--motions", motions, "--out", tmp_path, "--only", "Z-T1").stdout
+def test_without_json_it_prints_a_verdict_for_each_row(reproduced, motions, tmp_path):
+    printed, _ = reproduced("--motions", motions, "--out", tmp_path, "--only", "Z-T1")
     assert "Z-T1" in printed
     assert "holds" in printed or "does not hold" in printed
 
@@ -64,17 +76,17 @@ def test_a_row_that_fails_is_told_and_gives_exit_status_1(motions, tmp_path):
         ),
     ],
 )
-def test_bad_input_is_one_line_and_exit_status_2(motions, tmp_path, arguments, message):
+def test_bad_input_is_one_line_and_exit_status_2(reproduced, motions, tmp_path, arguments, message):
     options = {"--motions": motions, "--out": tmp_path / "out"} | dict([arguments])
-    done = footwork(*(word for option in options.items() for word in option), status=2)
-    assert done.stdout == ""
-    assert done.stderr.startswith("footwork: " + message)
-    assert done.stderr.count("\n") == 1
+    printed, said = reproduced(*(word for option in options.items() for word in option), status=BAD_INPUT)
+    assert printed == ""
+    assert said.startswith("footwork: " + message)
+    assert said.count("\n") == 1
     assert not (tmp_path / "out").exists()
 
 
-def test_a_file_in_place_of_the_folder_to_write_is_refused(motions, tmp_path):
+def test_a_file_in_place_of_the_folder_to_write_is_refused(reproduced, motions, tmp_path):
     (tmp_path / "file").write_text("mine")
-    done = footwork("--motions", motions, "--out", tmp_path / "file", status=2)
-    assert "expected a folder to write into" in done.stderr
+    _, said = reproduced("--motions", motions, "--out", tmp_path / "file", status=BAD_INPUT)
+    assert "expected a folder to write into" in said
     assert (tmp_path / "file").read_text() == "mine"
