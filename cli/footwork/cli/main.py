@@ -10,6 +10,7 @@ from cyclopts.exceptions import CycloptsError
 from footwork.cli.build import build
 from footwork.cli.demo import demo
 from footwork.cli.inspect import inspect
+from footwork.cli.keys import keys
 from footwork.cli.reproduce import reproduce
 from footwork.cli.score import score
 from footwork.cli.serve import serve
@@ -29,6 +30,7 @@ app.command(demo)
 app.command(build)
 app.command(inspect)
 app.command(serve)
+app.command(keys)
 app.command(score)
 app.command(reproduce)
 

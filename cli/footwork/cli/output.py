@@ -18,7 +18,7 @@ def emit(report: Mapping[str, object], as_json: bool, title: str) -> None:
     if as_json:
         print(json.dumps(report, allow_nan=False), flush=True)
         return
-    console = Console()
+    console = Console(markup=False)  # a path or a key may hold brackets
     console.print(_fields(report, title))
     for name, value in report.items():
         if _is_rows(value):

@@ -99,6 +99,13 @@ class Router:
         authenticator.put_on(self._socket)
         return authenticator
 
+    def socket(self, kind: int) -> zmq.Socket:
+        """A socket of another kind that takes the same clients, to bind elsewhere and to close before this one."""
+        socket = self._context.socket(kind)
+        if self._authenticator is not None:
+            self._authenticator.put_on(socket)
+        return socket
+
     def _watching(self) -> zmq.Poller:
         poller = zmq.Poller()
         poller.register(self._socket, zmq.POLLIN)
