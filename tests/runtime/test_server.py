@@ -3,8 +3,7 @@
 import random
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 
 import msgpack
 import pytest
@@ -13,28 +12,13 @@ import zmq
 from footwork.errors import InputError
 from footwork.protocol import messages as m
 from footwork.protocol.client import Client
-from footwork.protocol.codec import decode_from_server, encode
+from footwork.protocol.codec import encode
 from footwork.protocol.errors import BEHAVIOUR, MALFORMED, STALE, TOO_LARGE, VERSION, LocalError, RefusedError
 from footwork.protocol.pose_arrays import root_of
 from footwork.runtime.limits import Limits
 from footwork.runtime.server import Server
-from toy_bundle import SHOWN, toy_bundle
-
-BUNDLE = toy_bundle()
-TIMEOUT = 5
-
-
-@contextmanager
-def serving(until: Callable[[], bool] | None = None, **options) -> Iterator[Server]:
-    server = Server(BUNDLE, bind="tcp://127.0.0.1:0", **options)
-    thread = threading.Thread(target=server.run, args=(until,))
-    thread.start()
-    try:
-        yield server
-    finally:
-        server.stop()
-        thread.join(TIMEOUT)
-        assert not thread.is_alive()
+from served import BUNDLE, TIMEOUT, answer, serving, stranger
+from toy_bundle import SHOWN
 
 
 @pytest.fixture
@@ -48,22 +32,6 @@ def client(server):
     with Client(server.address, name="test") as client:
         client.spawn(0)
         yield client
-
-
-@contextmanager
-def stranger(server: Server) -> Iterator[zmq.Socket]:
-    socket = zmq.Context.instance().socket(zmq.DEALER)
-    socket.set(zmq.LINGER, 0)
-    socket.connect(server.address)
-    try:
-        yield socket
-    finally:
-        socket.close()
-
-
-def answer(socket: zmq.Socket) -> m.FromServer:
-    assert socket.poll(1000 * TIMEOUT), "no answer"
-    return decode_from_server(socket.recv())
 
 
 def ticks(client: Client, count: int) -> list[int]:

@@ -79,7 +79,9 @@ class Server:
         self.lateness_us = Ring()
         simulation = Simulation(bundle, limits.characters, inertialise=inertialise)
         self._host = Host(simulation, rate, limits, lockstep=lockstep)
-        self._router = Router(bind, keys=keys, most=limits.connections)
+        # Half a second of one character's poses, but no fewer than two frames of all that a session may have.
+        queue = max(rate // 2, 2 * limits.session_characters)
+        self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
         self._delivery = Delivery(self._router.send, self._host.sessions.__contains__, limits.waiting_messages)
         self._clock = FrameClock(rate, now_ns())
         self._stopping = False

@@ -1,0 +1,44 @@
+"""A server that runs, and a raw peer of it."""
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import zmq
+
+from footwork.protocol import messages as m
+from footwork.protocol.codec import decode_from_server
+from footwork.runtime.server import Server
+from toy_bundle import toy_bundle
+
+BUNDLE = toy_bundle()
+TIMEOUT = 5
+
+
+@contextmanager
+def serving(until: Callable[[], bool] | None = None, **options) -> Iterator[Server]:
+    server = Server(BUNDLE, bind="tcp://127.0.0.1:0", **options)
+    thread = threading.Thread(target=server.run, args=(until,))
+    thread.start()
+    try:
+        yield server
+    finally:
+        server.stop()
+        thread.join(TIMEOUT)
+        assert not thread.is_alive()
+
+
+@contextmanager
+def stranger(server: Server) -> Iterator[zmq.Socket]:
+    socket = zmq.Context.instance().socket(zmq.DEALER)
+    socket.set(zmq.LINGER, 0)
+    socket.connect(server.address)
+    try:
+        yield socket
+    finally:
+        socket.close()
+
+
+def answer(socket: zmq.Socket) -> m.FromServer:
+    assert socket.poll(1000 * TIMEOUT), "no answer"
+    return decode_from_server(socket.recv())
