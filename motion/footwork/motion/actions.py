@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.motion.arrays import frozen
 from footwork.motion.graph import MotionGraph
 from footwork.motion.task import SteeringTask
 from footwork.motion.turn_warp import TurnWarp
@@ -63,7 +64,7 @@ def actions_of(graph: MotionGraph, task: SteeringTask, warp: TurnWarp | None = N
     limit = task.turn_limit(graph.behaviour)
     price = np.zeros(graph.node_count) if warp is None else warp.price / task.smoothness_sigma
     turn = limit[:, None] * task.turn_levels
-    return Actions(
+    actions = Actions(
         edge_start=graph.edge_start,
         target=graph.target,
         yaw=np.ascontiguousarray(graph.displacement[:, 2]),
@@ -76,6 +77,12 @@ def actions_of(graph: MotionGraph, task: SteeringTask, warp: TurnWarp | None = N
         headed=task.headed,
         rules=Rules(task.heading_sigma, task.discount, task.additive, task.weight),
     )
+    return _read_only(actions)
+
+
+def _read_only(actions: Actions) -> Actions:
+    """The same with no array to be written to: kernels are compiled anew for each mixture."""
+    return Actions(*(frozen(part, part.dtype) if isinstance(part, np.ndarray) else part for part in actions))
 
 
 def onward_edges(graph: MotionGraph) -> NDArray[np.int32]:
@@ -86,7 +93,7 @@ def onward_edges(graph: MotionGraph) -> NDArray[np.int32]:
 
 def onward_actions(actions: Actions, onward: NDArray[np.int32]) -> Actions:
     """Only to go on, each node by one edge (N,), without an extra turn."""
-    return actions._replace(
+    goes_on = actions._replace(
         edge_start=np.arange(len(onward) + 1, dtype=np.int32),
         target=actions.target[onward],
         yaw=actions.yaw[onward],
@@ -94,3 +101,4 @@ def onward_actions(actions: Actions, onward: NDArray[np.int32]) -> Actions:
         level=np.zeros(1),
         turn_smoothness=np.ones((len(onward), 1)),
     )
+    return _read_only(goes_on)

@@ -72,9 +72,9 @@ def hold_feet(
                 # as if it were not lifted: the hips rise as the foot comes nearer, not at once
                 level = ankle[0], ankle[1] - lift, ankle[2]
                 drop = max(drop, _needed_drop(pose, level, _longest(spans[foot], pose)))
-                goals[foot] = ankle[0], ankle[1], ankle[2], sine, cosine
+                _put(goals, foot, (ankle[0], ankle[1], ankle[2], sine, cosine))
             else:
-                goals[foot] = pose[2][0], pose[2][1], pose[2][2], 0.0, 1.0
+                _put(goals, foot, (pose[2][0], pose[2][1], pose[2][2], 0.0, 1.0))
         drop = min(drop, DEEPEST)
         root[1] -= drop
         for foot in range(legs.shape[0]):
@@ -170,6 +170,7 @@ def _bend_leg(leg, bones, span, goal, root, rotations):
 
 
 @numba.njit(cache=True, nogil=True)
-def _put(rotations, joint, q):
-    for k in range(4):
-        rotations[joint, k] = q[k]
+def _put(rows, row, numbers):
+    # one by one: the message that Numba has ready for rows of another length takes seconds to compile
+    for k in range(len(numbers)):
+        rows[row, k] = numbers[k]

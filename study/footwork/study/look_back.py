@@ -78,8 +78,8 @@ def look_back(
         best[:] = -np.inf
         for edge in range(edge_start[node], edge_start[node + 1]):
             there = target[edge]
-            round_twice[:bins] = after[there]
-            round_twice[bins : 2 * bins] = after[there]
+            for heading in range(bins):
+                round_twice[heading] = round_twice[bins + heading] = after[there, heading]
             round_twice[2 * bins] = after[there, 0]
             matches = behaviour[there] == wanted and wanted >= 0
             for turn in range(len(level) if limit[there] > 0.0 else 1):

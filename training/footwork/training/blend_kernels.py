@@ -175,7 +175,9 @@ def place_joints(
             q = local[row, joint]
             if joint == 0:
                 places[row, 0] = 0.0
-                turns[row, 0] = q
+                # one by one: the message that Numba has ready for rows of another length takes seconds to compile
+                for k in range(4):
+                    turns[row, 0, k] = q[k]
                 continue
             parent = parents[joint]
             p = turns[row, parent]

@@ -92,5 +92,7 @@ def _place(source: NDArray, target: NDArray, naturals: int, start: NDArray, orde
         begin = start[node]
         if begin < start[node + 1] and order[begin] < naturals:
             begin += 1
-        part = order[begin : start[node + 1]]
-        order[begin : start[node + 1]] = part[np.argsort(target[part])]
+        part = order[begin : start[node + 1]].copy()
+        sorting = np.argsort(target[part])
+        for at in range(len(part)):
+            order[begin + at] = part[sorting[at]]

@@ -23,9 +23,10 @@ def between_originals(originals: int, edges: KeptEdges) -> NDArray[np.bool_]:
 @numba.njit(cache=True, nogil=True)
 def _reached(originals: int, start: NDArray, target: NDArray) -> NDArray[np.bool_]:
     reached = np.zeros(len(start) - 1, dtype=np.bool_)
-    reached[:originals] = True
     waiting = np.empty(len(start) - 1, dtype=np.int32)
-    waiting[:originals] = np.arange(originals)
+    for node in range(originals):
+        reached[node] = True
+        waiting[node] = node
     count = originals
     while count > 0:
         count -= 1

@@ -275,4 +275,6 @@ def _expect(row: NDArray, change: NDArray) -> None:
                 likely, after = change[wanted, then, jump], values[then, jump : jump + headings]
                 for h in range(headings):
                     expected[h] += likely * after[h]
-        row[wanted::behaviours] = expected
+        # one by one: the message that Numba has ready for slices of another length takes seconds to compile
+        for h in range(headings):
+            row[h * behaviours + wanted] = expected[h]
