@@ -82,7 +82,8 @@ def actions_of(graph: MotionGraph, task: SteeringTask, warp: TurnWarp | None = N
 
 def _read_only(actions: Actions) -> Actions:
     """The same with no array to be written to: kernels are compiled anew for each mixture."""
-    return Actions(*(frozen(part, part.dtype) if isinstance(part, np.ndarray) else part for part in actions))
+    arrays = {name: part for name, part in actions._asdict().items() if isinstance(part, np.ndarray)}
+    return actions._replace(**{name: frozen(array, array.dtype) for name, array in arrays.items()})
 
 
 def onward_edges(graph: MotionGraph) -> NDArray[np.int32]:
