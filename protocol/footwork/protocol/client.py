@@ -174,7 +174,10 @@ class Client:
                 self._send(m.Ping())
             left = max(0.0, end - time.monotonic())
             if self._socket.poll(math.ceil(1000.0 * min(left, self._ping_every))):
-                return self._connection.receive(self._socket.recv())  # type: ignore[return-value]
+                message = self._connection.receive(self._socket.recv())
+                if isinstance(message, m.Welcome):  # the server plays another bundle from now on
+                    self.welcome = message
+                return message  # type: ignore[return-value]
             if time.monotonic() >= end:
                 return None
 

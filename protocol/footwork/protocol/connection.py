@@ -47,6 +47,7 @@ TRANSITIONS: dict[Role, dict[State, dict[type, State]]] = {
         State.NEW: {m.Error: State.NEW, m.Bye: State.CLOSED},
         State.GREETED: {m.Welcome: State.OPEN, m.Error: State.GREETED, m.Bye: State.CLOSED},
         State.OPEN: {
+            m.Welcome: State.OPEN,
             m.Pose: State.OPEN,
             m.Event: State.OPEN,
             m.Error: State.OPEN,

@@ -19,6 +19,7 @@ from footwork.runtime.pose_message import pose_message
 from footwork.runtime.roster import Roster
 from footwork.runtime.session import Sequenced, Session
 from footwork.runtime.simulation import PoseFrames, Simulation
+from footwork.runtime.succession import Succession
 
 log = logging.getLogger(__name__)
 
@@ -49,15 +50,35 @@ class Host:
         self.sessions_begun = 0
         self.resumed = 0
         self.refused = 0
-        self.welcome = replace(
-            welcome_of(simulation.bundle, simulation.behaviours, frame_rate, limits), lockstep=lockstep
-        )
+        self._frames = frame_rate // m.TICK_RATE
+        self.welcome = self.welcome_for(simulation)
         self._roster = Roster(limits)
         self.sessions = self._roster.here
-        self._frames = frame_rate // m.TICK_RATE
         self._effects = Effects(simulation, limits, self._make_room)
         self._outbox: list[Outgoing] = []
         self._told: dict[bytes, int] = {}
+
+    def welcome_for(self, simulation: Simulation) -> m.Welcome:
+        """What sessions in a simulation are told on arrival.
+
+        Raises:
+            LocalError: for a bundle that the wire cannot hold.
+        """
+        frame_rate = self._frames * m.TICK_RATE
+        welcome = welcome_of(simulation.bundle, simulation.behaviours, frame_rate, self.limits)
+        return replace(welcome, lockstep=self.lockstep)
+
+    def succeed(self, succession: Succession, welcome: m.Welcome) -> None:
+        """Go on in another simulation, between two ticks: all characters move over, clients are welcomed anew."""
+        latter = succession.latter
+        latter.tick = self.simulation.tick
+        for session in self._roster.all:
+            for character in session.characters.values():
+                character.slot = succession.move(character.slot)
+        self.simulation, self.welcome = latter, welcome
+        self._effects = Effects(latter, self.limits, self._make_room)
+        for session in self.sessions.values():
+            self._send(session, welcome_to(session, welcome, latter.tick, resumed=True))
 
     def receive(self, peer: bytes, data: bytes, now: int) -> None:
         """Take what a peer sent at ``now``, monotonic nanoseconds; answers wait in the outbox."""

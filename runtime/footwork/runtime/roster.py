@@ -1,5 +1,7 @@
 """The sessions of a server: those of a client that is there, and those that wait for theirs to come back."""
 
+from collections.abc import Iterable
+
 from footwork.protocol.errors import RESUME, PeerError
 from footwork.runtime.limits import Limits
 from footwork.runtime.session import Session
@@ -25,6 +27,11 @@ class Roster:
     def full(self) -> bool:
         """Whether there is no room for another."""
         return len(self._by_token) >= self._limits.sessions
+
+    @property
+    def all(self) -> Iterable[Session]:
+        """Those that are here and those that wait."""
+        return self._by_token.values()
 
     def begin(self, peer: bytes, now: int) -> Session:
         """A new session of a peer, where there is room."""

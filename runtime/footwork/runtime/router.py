@@ -79,6 +79,7 @@ class Router:
         self._authenticator = None if keys is None else self._guard(keys)
         self.connections = Connections(self._socket, most)
         self._poller = self._watching()
+        self.bytes_in = self.bytes_out = 0
         try:
             self._socket.bind(bind)
         except zmq.ZMQError as error:
@@ -150,6 +151,7 @@ class Router:
             frames.append(data.bytes)
         while len(frames) < _FRAMES and self._socket.get(zmq.RCVMORE):
             frames.append(self._socket.recv(zmq.NOBLOCK))  # all of a message is there once its first frame is
+        self.bytes_in += len(frames[1])
         return frames
 
     def _pass_over(self) -> bool:
@@ -170,6 +172,7 @@ class Router:
             if error.errno != zmq.EHOSTUNREACH:
                 raise
             return Sent.GONE
+        self.bytes_out += len(data)
         return Sent.QUEUED
 
     def close(self, linger: float = 0.0) -> None:

@@ -5,26 +5,35 @@ tick and sends the poses; a command that came in before a deadline is acknowledg
 lock-step there are no deadlines: it only listens, and makes a tick as soon as its clients have asked for it.
 """
 
+import logging
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
+
+import zmq
 
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
 from footwork.protocol.codec import encode
 from footwork.protocol.errors import MALFORMED, PeerError
-from footwork.protocol.messages import Bye
+from footwork.protocol.messages import Bye, Welcome
 from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.collector import collect_young, held_collector
 from footwork.runtime.delivery import Delivery
+from footwork.runtime.gallery import Gallery
+from footwork.runtime.histogram import Histogram
 from footwork.runtime.host import Host
 from footwork.runtime.key_folder import KeyFolder
 from footwork.runtime.limits import Limits
 from footwork.runtime.ring import Ring
 from footwork.runtime.router import DEFAULT_BIND, Router, Sent
 from footwork.runtime.simulation import Simulation
+from footwork.runtime.succession import Succession
+
+log = logging.getLogger(__name__)
 
 RATES = (30, 60, 120)
 _MILLISECOND = 1_000_000
@@ -51,6 +60,7 @@ class Server:
         limits: how much clients may ask for.
         inertialise: whether transitions are smoothed.
         lockstep: make no tick by a clock, but each once all clients with characters have asked for it.
+        spectate: where spectators may watch all characters, nowhere unless given; told by ``gallery_address``.
         keys: let in only clients whose CURVE keys are in this folder; without it whoever reaches the address.
 
     Raises:
@@ -67,6 +77,7 @@ class Server:
         limits: Limits | None = None,
         inertialise: bool = True,
         lockstep: bool = False,
+        spectate: str | None = None,
         keys: KeyFolder | None = None,
     ) -> None:
         if rate not in RATES:
@@ -77,20 +88,54 @@ class Server:
         self.late_ticks = 0
         self.tick_us = Ring()
         self.lateness_us = Ring()
-        simulation = Simulation(bundle, limits.characters, inertialise=inertialise)
-        self._host = Host(simulation, rate, limits, lockstep=lockstep)
+        self.tick_seconds = Histogram()
+        self.reloads = 0
+        self.pulse = now_ns()
+        self.simulate = partial(Simulation, capacity=limits.characters, inertialise=inertialise)
+        self._host = Host(self.simulate(bundle), rate, limits, lockstep=lockstep)
         # Half a second of one character's poses, but no fewer than two frames of all that a session may have.
         queue = max(rate // 2, 2 * limits.session_characters)
         self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
+        self._gallery = None if spectate is None else self._open_gallery(spectate, 2 * limits.characters)
         self._delivery = Delivery(self._router.send, self._host.sessions.__contains__, limits.waiting_messages)
         self._clock = FrameClock(rate, now_ns())
         self._stopping = False
+        self._succession: tuple[Succession, Welcome] | None = None
         self._ended = threading.Event()
 
     @property
     def address(self) -> str:
         """Where it listens, with the port that was taken."""
         return self._router.address
+
+    @property
+    def simulation(self) -> Simulation:
+        """What is being served."""
+        return self._host.simulation
+
+    def succeed(self, succession: Succession) -> None:
+        """Let another bundle take over between two ticks, and wait until it has; for another thread than ``run``'s.
+
+        Raises:
+            LocalError: for a bundle that the wire cannot hold; the old one goes on.
+        """
+        self._succession = (succession, self._host.welcome_for(succession.latter))
+        while self._succession is not None and not self._ended.wait(0.01):
+            pass
+
+    @property
+    def gallery_address(self) -> str | None:
+        """Where spectators may watch, if anywhere."""
+        return None if self._gallery is None else self._gallery.address
+
+    def _open_gallery(self, bind: str, queue: int) -> Gallery:
+        socket = self._router.socket(zmq.XPUB)
+        try:
+            return Gallery(socket, bind, queue)
+        except InputError:
+            socket.close(linger=0)
+            self._router.close()
+            raise
 
     def run(self, until: Callable[[], bool] | None = None) -> None:
         """Serve until ``stop`` is called or ``until()``, asked before every frame, is true; then say bye and close.
@@ -107,6 +152,8 @@ class Server:
         """Say bye to all and let go of the socket; ``run`` does so when it ends."""
         self._host.end_all("shutdown")
         self._flush()
+        if self._gallery is not None:
+            self._gallery.close()
         self._router.close(linger=_FAREWELL)
         self._ended.set()
 
@@ -131,6 +178,17 @@ class Server:
             "cut": self._router.connections.cut,
             "denied": self._router.denied,
             "skipped_frames": self._clock.skipped,
+            "reloads": self.reloads,
+            "bytes_in": self._router.bytes_in,
+            "bytes_out": self._router.bytes_out,
+        }
+
+    def population(self) -> dict[str, int]:
+        """How many there are of each just now."""
+        return {
+            "open_sessions": len(self._host.sessions),
+            "connections": len(self._router.connections),
+            "characters": len(self.simulation.world.slots),
         }
 
     def _loop(self, until: Callable[[], bool] | None) -> None:
@@ -140,9 +198,10 @@ class Server:
         frame = 1
         while not (self._stopping or (until is not None and until())):
             self._listen(self._clock.deadline)
+            self.pulse = now_ns()
             work += self._show(frame)
             if frame == frames:
-                self.tick_us.add(work / 1000.0)
+                self._note(work)
                 work = 0
                 self._tidy()
             frame = frame % frames + 1
@@ -180,6 +239,7 @@ class Server:
             if self._delivery.show(peer, pose) is Sent.GONE:
                 self._lose(peer)
         self._retry()
+        self._let_watch(frame)
         done = now_ns()
         if frame == 1:
             self.ticks += 1
@@ -195,18 +255,25 @@ class Server:
             self._make_steps()
             self._retry()
             if now_ns() - renewed > SECOND // TICK_RATE:
-                renewed = now_ns()
+                renewed = self.pulse = now_ns()
                 self._host.count_anew()
                 self._host.end_overdue(renewed)
                 self._router.look()
+                self._hand_over()
+
+    def _note(self, nanoseconds: int) -> None:
+        """Note how long a tick and its poses took."""
+        self.tick_us.add(nanoseconds / 1000.0)
+        self.tick_seconds.add(nanoseconds / SECOND)
 
     def _make_steps(self) -> None:
         self._flush()
         start = now_ns()
         while not self._stopping and self._host.step():
             self._flush()
+            self._let_watch(self.rate // TICK_RATE)
             done = now_ns()
-            self.tick_us.add((done - start) / 1000.0)
+            self._note(done - start)
             self.ticks += 1
             if self.ticks % _LOCK_STEP_TIDY == 0:
                 collect_young()
@@ -216,6 +283,10 @@ class Server:
     def _patience(self) -> int:
         """How long to listen without looking elsewhere, milliseconds."""
         return _RETRY_MS if self._delivery.waiting else 1000 // TICK_RATE
+
+    def _let_watch(self, frame: int) -> None:
+        if self._gallery is not None:
+            self._gallery.show(self._host.simulation, self._host.welcome, frame)
 
     def _flush(self) -> None:
         for peer, data in self._host.outgoing():
@@ -240,7 +311,16 @@ class Server:
         self._delivery.forget(peer)
         self._host.lose(peer, now_ns())
 
+    def _hand_over(self) -> None:
+        """Let the bundle that waits to be served take over."""
+        if self._succession is not None:
+            self._host.succeed(*self._succession)
+            self._succession = None
+            self.reloads += 1
+            log.info("bundle %s is served from now on", self.simulation.bundle.digest[:12])
+
     def _tidy(self) -> None:
         self._router.look()
+        self._hand_over()
         if self.ticks % TICK_RATE == 0:
             collect_young()

@@ -109,8 +109,10 @@ class Simulation:
         """Whether there is no room for another character."""
         return len(self._who) == self.world.capacity
 
-    def spawn(self, x: float, z: float, yaw: float, behaviour: str = "") -> int:
+    def spawn(self, x: float, z: float, yaw: float, behaviour: str = "", *, node: int | None = None) -> int:
         """Put a character into the world, doing ``behaviour`` or else standing; returns its slot.
+
+        It begins at ``node``, where one is given, and otherwise where its behaviour does.
 
         Raises:
             UnknownBehaviour: for a behaviour that the bundle lacks.
@@ -119,7 +121,7 @@ class Simulation:
         if behaviour:
             self.vocabulary.index(behaviour)
         start = behaviour or self._idle
-        slot = self.world.spawn(self._start[start], x, z, yaw)
+        slot = self.world.spawn(self._start[start] if node is None else node, x, z, yaw)
         self._controller.begin(slot)
         self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in ONE_SHOT else start))
         self._who = np.flatnonzero(self.world.active)
@@ -146,6 +148,11 @@ class Simulation:
     def stand(self, slot: int) -> None:
         """Let a character stop where it is, as far as the bundle lets it."""
         self.give(slot, self.vocabulary.outright(self.world.place[slot, 2].item(), self._idle))
+
+    def lasting(self, slot: int) -> tuple[float, str]:
+        """What a character is asked for until told otherwise: heading, radians, and behaviour."""
+        orders = self._orders
+        return orders.heading[slot].item(), self.world.graph.behaviours[orders.lasting[slot]]
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""

@@ -1,0 +1,94 @@
+"""Health and metrics over HTTP, of a live server."""
+
+import json
+import socket
+import sys
+import time
+import urllib.error
+import urllib.request
+
+import pytest
+
+from footwork.errors import InputError
+from footwork.protocol.client import Client
+from footwork.runtime.monitoring import Monitoring
+from serving import serving
+
+
+def got(url: str) -> tuple[int, str]:
+    try:
+        with urllib.request.urlopen(url, timeout=5) as answer:
+            return answer.status, answer.read().decode()
+    except urllib.error.HTTPError as error:
+        return error.code, error.read().decode()
+
+
+def comes(url: str, wanted: int, seconds: float = 5.0) -> str:
+    """The health's status once it is answered with this number."""
+    end = time.monotonic() + seconds
+    while (answer := got(url))[0] != wanted:
+        assert time.monotonic() < end, answer
+        time.sleep(0.02)
+    return json.loads(answer[1])["status"]
+
+
+@pytest.fixture
+def hold():
+    return {"until": 0.0}
+
+
+@pytest.fixture
+def watched(hold):
+    def held_up() -> bool:
+        time.sleep(max(0.0, hold["until"] - time.monotonic()))
+        return False
+
+    with serving(held_up) as server, Monitoring(server, "127.0.0.1:0") as monitoring:
+        yield server, monitoring.address
+
+
+def test_metrics_tell_what_the_server_did(watched):
+    server, address = watched
+    with Client(server.address) as client:
+        client.spawn(0)
+        next(client.poses())
+        status, text = got(f"{address}/metrics")
+    lines = dict(line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))
+    assert status == 200
+    assert float(lines["footwork_ticks_total"]) >= 1
+    assert float(lines["footwork_sessions_total"]) == float(lines["footwork_characters"]) == 1
+    assert float(lines["footwork_bytes_out_total"]) > float(lines["footwork_bytes_in_total"]) > 0
+    assert float(lines['footwork_tick_seconds_bucket{le="+Inf"}']) == float(lines["footwork_tick_seconds_count"]) > 0
+
+
+def test_a_server_that_makes_ticks_is_well_and_one_that_stalls_is_not(watched, hold, monkeypatch):
+    _, address = watched
+    monkeypatch.setattr("footwork.runtime.monitoring.STALLED_SECONDS", 0.3)
+    assert comes(f"{address}/health", 200) == "ok"
+    hold["until"] = time.monotonic() + 1.0
+    assert comes(f"{address}/health", 503) == "stalled"
+    assert comes(f"{address}/health", 200) == "ok"
+
+
+def test_who_asks_half_a_question_keeps_nobody_waiting(watched):
+    _, address = watched
+    host, port = address.removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port))) as half:
+        half.sendall(b"GET /hea")
+        assert got(f"{address}/health")[0] == 200
+    assert got(f"{address}/nothing")[0] == 404
+
+
+def test_without_the_package_metrics_say_what_is_missing_and_health_goes_on(watched, monkeypatch):
+    _, address = watched
+    monkeypatch.setitem(sys.modules, "prometheus_client", None)
+    status, text = got(f"{address}/metrics")
+    assert status == 501
+    assert "footwork[metrics]" in text
+    assert got(f"{address}/health")[0] == 200
+
+
+@pytest.mark.parametrize("bind", ["nonsense", "127.0.0.1", "127.0.0.1:x", "127.0.0.1:70000", "300.0.0.1:0"])
+def test_an_address_that_is_none_is_refused(watched, bind):
+    with pytest.raises(InputError):
+        Monitoring(watched[0], bind)
