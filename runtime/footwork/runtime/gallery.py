@@ -1,0 +1,86 @@
+"""Where spectators watch: an XPUB socket with every character's poses, for whoever subscribes, and nothing to say."""
+
+import logging
+
+import numpy as np
+import zmq
+from msgspec.structs import replace
+
+from footwork.errors import InputError
+from footwork.protocol.address import is_ipv6, port_fits
+from footwork.protocol.codec import encode
+from footwork.protocol.messages import TICK_RATE, Welcome
+from footwork.protocol.spectator import SCENE_TOPIC, pose_topic
+from footwork.runtime.pose_message import pose_message
+from footwork.runtime.router import is_local
+from footwork.runtime.simulation import Simulation
+
+log = logging.getLogger(__name__)
+
+_TOPIC_BYTES = 64
+_SUBSCRIPTIONS_AT_ONCE = 1024
+
+
+class Gallery:
+    """A bound XPUB socket.
+
+    Args:
+        socket: the XPUB socket, with keys asked for or not; closed with this.
+        bind: where to listen; port 0 or ``*`` takes any free one, told by ``address``.
+        queue: how many messages may wait for a spectator before more are dropped.
+
+    Raises:
+        InputError: for an address that cannot be bound.
+    """
+
+    def __init__(self, socket: zmq.Socket, bind: str, queue: int) -> None:
+        self._socket = socket
+        self._topics = 0
+        self._scene_due = 0
+        options = {zmq.SNDHWM: queue, zmq.MAXMSGSIZE: _TOPIC_BYTES, zmq.IPV6: is_ipv6(bind), zmq.TCP_KEEPALIVE: 1}
+        for option, value in options.items():
+            socket.set(option, value)
+        try:
+            if not port_fits(bind):
+                raise InputError("cannot bind: a port is at most 65535", bind)
+            socket.bind(bind)
+        except zmq.ZMQError as error:
+            raise InputError(f"cannot bind: {error.strerror}, expected such as tcp://127.0.0.1:5556", bind) from None
+        self.address = socket.get_string(zmq.LAST_ENDPOINT)
+        if not is_local(self.address):
+            log.warning("%s can be reached from other machines, and whoever may connect to it can watch", self.address)
+
+    @property
+    def watched(self) -> bool:
+        """Whether anybody subscribes to anything."""
+        for _ in range(_SUBSCRIPTIONS_AT_ONCE):
+            try:
+                self._topics += 1 if self._socket.recv(zmq.NOBLOCK)[:1] == b"\x01" else -1
+            except zmq.Again:
+                break
+        return self._topics > 0
+
+    def show(self, simulation: Simulation, welcome: Welcome, frame: int) -> None:
+        """Publish a shown frame of the tick last made; once a second also what the scene is made of.
+
+        Args:
+            simulation: whose characters are shown; their slots are their public numbers.
+            welcome: what sessions are told of the scene.
+            frame: 1, 2 ... frame_rate / 30.
+        """
+        if not self.watched:
+            return
+        tick = simulation.tick
+        if tick >= self._scene_due:
+            self._scene_due = tick + TICK_RATE
+            self._publish(SCENE_TOPIC, encode(replace(welcome, tick=tick)))
+        shown = simulation.show(frame * TICK_RATE / welcome.frame_rate)
+        for slot in np.flatnonzero(simulation.world.active).tolist():
+            self._publish(pose_topic(slot), encode(pose_message(shown, slot, tick=tick, frame=frame, number=slot)))
+
+    def _publish(self, topic: bytes, data: bytes) -> None:
+        self._socket.send_multipart([topic, data], zmq.NOBLOCK)  # PUB sockets drop what a subscriber has no room for
+
+    def close(self) -> None:
+        """Close; what spectators have not got yet they miss."""
+        self._socket.close(linger=0)
