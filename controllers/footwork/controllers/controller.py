@@ -53,6 +53,13 @@ class Controller(Protocol):
         """A new character has come into this slot."""
         ...
 
+    def memory(self, capacity: int) -> tuple[NDArray, ...]:
+        """All that it remembers, arrays with a row for each slot, with room for so many slots.
+
+        They stay its own for as long as slots are under ``capacity``: whoever writes a row puts a character back.
+        """
+        ...
+
     def choose(self, situations: Situations, moves: Moves) -> None:
         """Write the move that each character shall make into ``moves``, row for row.
 

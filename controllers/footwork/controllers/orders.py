@@ -1,5 +1,8 @@
 """Orders: what every character was last asked for, and one-shot behaviours waiting until they are entered."""
 
+from typing import NamedTuple
+
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,8 +14,67 @@ HOLD_TICKS = 10
 """How long it is asked for once it is entered, 0.33 s: a policy that can leave it at once shall not (convention)."""
 
 
+class InForce(NamedTuple):
+    """The commands in force, a row for each slot.
+
+    Args:
+        heading: wanted yaw in the world, radians.  # (C,) float64
+        lasting: index of the behaviour to go on with.  # (C,) int32
+        asked: what was asked for at the last tick.  # (C,) int32
+        latched: index of the one-shot behaviour that waits or is being done, -1 for none.  # (C,) int32
+        held: index of the one-shot behaviour whose key is held, -1 for none.  # (C,) int32
+        ticks_left: how much longer the latched one is asked for.  # (C,) int32
+        entered: whether the character showed it at the last tick.  # (C,) bool
+    """
+
+    heading: NDArray[np.float64]
+    lasting: NDArray[np.int32]
+    asked: NDArray[np.int32]
+    latched: NDArray[np.int32]
+    held: NDArray[np.int32]
+    ticks_left: NDArray[np.int32]
+    entered: NDArray[np.bool_]
+
+
+@numba.njit(cache=True, nogil=True)
+def put_in_force(slot: int, heading: float, behaviour: int, one_shot: int, shown: int, in_force: InForce) -> None:
+    """Put a command into force for a character that shows the behaviour ``shown`` now, -1 for none."""
+    in_force.heading[slot] = heading
+    if behaviour != NONE:
+        in_force.lasting[slot] = behaviour
+    held = in_force.held[slot]
+    in_force.held[slot] = one_shot
+    if one_shot != NONE and one_shot != held and one_shot != shown:
+        in_force.latched[slot] = one_shot
+        in_force.ticks_left[slot], in_force.entered[slot] = LATCH_TICKS, False
+
+
+@numba.njit(cache=True, nogil=True)
+def ask(slots: NDArray, shown: NDArray, in_force: InForce) -> None:
+    """Write what to ask of characters at this tick into ``asked``, once a tick before edges are chosen.
+
+    Args:
+        slots: rows of the characters.  # (n,)
+        shown: index of the behaviour that each of them shows now, -1 for none, row for row with ``slots``.  # (n,)
+        in_force: their commands.
+    """
+    _, lasting, asked, latched, _, ticks_left, entered = in_force
+    for row in range(slots.shape[0]):
+        who = slots[row]
+        shows = latched[who] == shown[row] and latched[who] != NONE
+        if shows and not entered[who]:
+            ticks_left[who] = HOLD_TICKS
+        if (entered[who] and not shows) or ticks_left[who] == 0:
+            latched[who] = NONE
+        entered[who] = shows
+        asked[who] = lasting[who]
+        if latched[who] != NONE:
+            asked[who] = latched[who]
+            ticks_left[who] -= 1
+
+
 class Orders:
-    """The commands in force, as arrays over characters, ready for ``SteeringController.choose``.
+    """The commands in force, ready for ``SteeringController.choose``.
 
     A one-shot behaviour is latched when its key goes down: it is asked for in place of the lasting behaviour until
     the character has shown it for ``HOLD_TICKS``, or for ``LATCH_TICKS`` if it never does. It is ignored while the
@@ -22,26 +84,31 @@ class Orders:
         capacity: how many characters there is room for.
 
     Attributes:
-        heading: wanted yaw in the world, radians.  # (capacity,) float64
-        lasting: index of the behaviour to go on with.  # (capacity,) int32
-        asked: what to ask for at this tick, as of the last ``at_tick``.  # (capacity,) int32
+        in_force: all that is remembered of them.
+        heading: of those.  # (capacity,)
+        asked: of those: what to ask for at this tick, as of the last ``at_tick``.  # (capacity,)
     """
 
     def __init__(self, capacity: int) -> None:
-        self.heading = np.zeros(capacity)
-        self.lasting = np.zeros(capacity, dtype=np.int32)
-        self.asked = np.zeros(capacity, dtype=np.int32)
-        self._latched = np.full(capacity, NONE, dtype=np.int32)
-        self._held = np.full(capacity, NONE, dtype=np.int32)
-        self._ticks_left = np.zeros(capacity, dtype=np.int32)
-        self._entered = np.zeros(capacity, dtype=np.bool_)
+        self.in_force = InForce(
+            heading=np.zeros(capacity),
+            lasting=np.zeros(capacity, dtype=np.int32),
+            asked=np.zeros(capacity, dtype=np.int32),
+            latched=np.full(capacity, NONE, dtype=np.int32),
+            held=np.full(capacity, NONE, dtype=np.int32),
+            ticks_left=np.zeros(capacity, dtype=np.int32),
+            entered=np.zeros(capacity, dtype=np.bool_),
+        )
+        self.heading, self.asked = self.in_force.heading, self.in_force.asked
+        self._slots = np.arange(capacity)
 
     def begin(self, slot: int, heading: float, behaviour: int) -> None:
         """Forget what the slot was asked for before; a new character begins with this."""
+        _, lasting, asked, latched, held, ticks_left, entered = self.in_force
         self.heading[slot] = heading
-        self.lasting[slot] = self.asked[slot] = behaviour
-        self._latched[slot] = self._held[slot] = NONE
-        self._ticks_left[slot], self._entered[slot] = 0, False
+        lasting[slot] = asked[slot] = behaviour
+        latched[slot] = held[slot] = NONE
+        ticks_left[slot], entered[slot] = 0, False
 
     def give(self, slot: int, command: Command, shown: int) -> None:
         """Put a command into force.
@@ -51,14 +118,7 @@ class Orders:
             command: what is asked for.
             shown: index of the behaviour that the character shows now, -1 for none.
         """
-        self.heading[slot] = command.heading
-        if command.behaviour != NONE:
-            self.lasting[slot] = command.behaviour
-        once, held = command.one_shot, self._held[slot]
-        self._held[slot] = once
-        if once not in (NONE, held, shown):
-            self._latched[slot] = once
-            self._ticks_left[slot], self._entered[slot] = LATCH_TICKS, False
+        put_in_force(slot, float(command.heading), command.behaviour, command.one_shot, shown, self.in_force)
 
     def at_tick(self, shown: NDArray) -> NDArray[np.int32]:
         """The behaviour to ask for at this tick, once a tick before edges are chosen.
@@ -69,10 +129,5 @@ class Orders:
         Returns:
             ``asked``, which the next call writes over.
         """
-        shows = (self._latched == shown) & (self._latched != NONE)
-        self._ticks_left[shows & ~self._entered] = HOLD_TICKS
-        self._latched[(self._entered & ~shows) | (self._ticks_left == 0)] = NONE
-        self._entered = shows
-        self.asked[:] = np.where(self._latched == NONE, self.lasting, self._latched)
-        self._ticks_left[self._latched != NONE] -= 1
+        ask(self._slots, shown, self.in_force)
         return self.asked

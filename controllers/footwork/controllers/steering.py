@@ -5,12 +5,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import Situations, present_behaviours
+from footwork.controllers.policy import Policy
 from footwork.errors import FootworkError, InputError
 from footwork.motion.actions import Actions, actions_of, onward_edges
 from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import MotionGraph
 from footwork.motion.lookahead import best_action, best_listed_action
-from footwork.motion.moves import Moves, along_edges
+from footwork.motion.moves import Moves, fill_moves
 from footwork.motion.table import PolicyTable
 from footwork.motion.turn_warp import turn_about, turn_warp
 
@@ -125,6 +126,46 @@ def turn_moves(pivot: NDArray, target: NDArray, turn: NDArray, adjustment: NDArr
             adjustment[who, 0], adjustment[who, 1], adjustment[who, 2] = x, z, yaw
 
 
+@numba.njit(cache=True, nogil=True)
+def steer(
+    policy: Policy,
+    slot: NDArray,
+    node: NDArray,
+    place: NDArray,
+    heading: NDArray,
+    behaviour: NDArray,
+    held: NDArray,
+    edge: NDArray,
+    target: NDArray,
+    displacement: NDArray,
+    adjustment: NDArray,
+    natural: NDArray,
+) -> None:
+    """Write the moves of C characters into the last five arrays; the arguments before are those of ``decide``."""
+    actions, pivot, turn = policy.actions, policy.pivot, np.empty(slot.shape[0])
+    decide(
+        actions,
+        policy.coded,
+        policy.shortlist,
+        policy.onward,
+        policy.segment_ticks,
+        policy.exact,
+        slot,
+        node,
+        place,
+        heading,
+        behaviour,
+        held,
+        edge,
+        turn,
+    )
+    edges, graph_target = edge, actions.target
+    fill_moves(
+        edges, graph_target, policy.displacement, policy.natural, edge, target, displacement, adjustment, natural
+    )
+    turn_moves(pivot, target, turn, adjustment)
+
+
 class SteeringController:
     """Chooses edges and extra turns on one graph by one policy table (conventions.md 5).
 
@@ -152,10 +193,18 @@ class SteeringController:
         self.table = table
         self.exact_facing = exact_facing
         warp = turn_warp(graph) if table.task.warp > 0.0 else None
-        self._actions, self._onward = actions_of(graph, table.task, warp), onward_edges(graph)
-        self._pivot = np.zeros((graph.node_count, 2)) if warp is None else warp.pivot
+        self.policy = Policy(
+            actions=actions_of(graph, table.task, warp),
+            coded=table.coded,
+            shortlist=table.shortlist,
+            onward=onward_edges(graph),
+            segment_ticks=table.task.segment_ticks,
+            exact=exact_facing,
+            pivot=np.zeros((graph.node_count, 2)) if warp is None else warp.pivot,
+            displacement=graph.displacement,
+            natural=graph.natural,
+        )
         self._held = np.zeros(1, dtype=np.int32)  # ticks by slot for which the last decision still holds
-        self._edge, self._turn = np.zeros(1, dtype=np.int32), np.zeros(1)
 
     @property
     def behaviours(self) -> tuple[str, ...]:
@@ -177,41 +226,40 @@ class SteeringController:
         self._make_room(slot + 1)
         self._held[slot] = 0
 
+    def memory(self, capacity: int) -> tuple[NDArray]:
+        """For how many ticks the last decision of each slot still holds.  # (capacity or more,)"""
+        self._make_room(capacity)
+        return (self._held,)
+
     def choose(self, situations: Situations, moves: Moves) -> None:
         """Write the best action of each of C characters into ``moves``.
 
         Raises:
             WrongQuestion: for a node or a behaviour that the table does not have.
         """
-        node, behaviour, count = situations.node, situations.behaviour, len(situations.node)
+        node, behaviour = situations.node, situations.behaviour
         self._check(node, self.graph.node_count, "node")
         self._check(behaviour, len(self.behaviours), "behaviour")
-        self._make_room(max(count, int(situations.slot.max(initial=-1)) + 1))
-        edge, turn = self._edge[:count], self._turn[:count]
-        decide(
-            self._actions,
-            self.table.coded,
-            self.table.shortlist,
-            self._onward,
-            self.table.task.segment_ticks,
-            self.exact_facing,
+        self._make_room(int(situations.slot.max(initial=-1)) + 1)
+        steer(
+            self.policy,
             situations.slot,
             node,
             situations.place,
             situations.heading,
             behaviour,
             self._held,
-            edge,
-            turn,
+            moves.edge,
+            moves.target,
+            moves.displacement,
+            moves.adjustment,
+            moves.natural,
         )
-        along_edges(self.graph, edge, moves)
-        turn_moves(self._pivot, moves.target, turn, moves.adjustment)
 
     def _make_room(self, count: int) -> None:
         short = count - len(self._held)
         if short > 0:
             self._held = np.append(self._held, np.zeros(short, np.int32))
-            self._edge, self._turn = np.zeros(count, np.int32), np.zeros(count)
 
     def start_node(self, behaviour: str = "stop") -> int:
         """A good node to spawn at: of those that show the behaviour, the one worth most on average over all headings.

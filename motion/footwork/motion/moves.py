@@ -61,7 +61,7 @@ def no_moves(count: int) -> Moves:
 def along_edges(graph: MotionGraph, edges: NDArray[np.int32], moves: Moves) -> None:
     """Fill moves with edges of a graph, taken as they are.  # edges (C,)"""
     into = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
-    _along_edges(edges, graph.target, graph.displacement, graph.natural, *into)
+    fill_moves(edges, graph.target, graph.displacement, graph.natural, *into)
 
 
 def moves_along(graph: MotionGraph, edges: NDArray[np.int32]) -> Moves:
@@ -72,7 +72,7 @@ def moves_along(graph: MotionGraph, edges: NDArray[np.int32]) -> Moves:
 
 
 @numba.njit(cache=True, nogil=True)
-def _along_edges(
+def fill_moves(
     edges: NDArray,
     graph_target: NDArray,
     graph_displacement: NDArray,
@@ -83,6 +83,7 @@ def _along_edges(
     adjustment: NDArray,
     natural: NDArray,
 ) -> None:
+    """``along_edges`` for kernels: the arrays of a graph, then those of the moves."""
     for who in range(edges.shape[0]):
         taken = edges[who]
         edge[who] = taken

@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import Command, Vocabulary
-from footwork.controllers.controller import Controller, Situations
+from footwork.controllers.controller import Controller
 from footwork.controllers.orders import Orders
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
-from footwork.motion.moves import no_moves
 from footwork.motion.task import ONE_SHOT
+from footwork.runtime.schedule import NOTHING
+from footwork.runtime.ticks import ticks_of
 from footwork.runtime.warm import warm_kernels
 from footwork.runtime.world import World
 
@@ -93,10 +94,9 @@ class Simulation:
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._shown_as = self._numbering()
         self._clip_of, self._frame_of = graph.nearest_source
-        self._moves, self._chosen = no_moves(capacity), no_moves(capacity)
-        self._who = np.zeros(0, dtype=np.intp)
-        self._note_actions()
         warm_kernels(self._controller)
+        self._ticks = ticks_of(self._controller, self.world, self._orders)
+        self._note_actions()
 
     def _numbering(self) -> NDArray[np.int32]:
         """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
@@ -107,7 +107,7 @@ class Simulation:
     @property
     def full(self) -> bool:
         """Whether there is no room for another character."""
-        return len(self._who) == self.world.capacity
+        return len(self.world.slots) == self.world.capacity
 
     def spawn(self, x: float, z: float, yaw: float, behaviour: str = "", *, node: int | None = None) -> int:
         """Put a character into the world, doing ``behaviour`` or else standing; returns its slot.
@@ -124,13 +124,11 @@ class Simulation:
         slot = self.world.spawn(self._start[start] if node is None else node, x, z, yaw)
         self._controller.begin(slot)
         self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in ONE_SHOT else start))
-        self._who = np.flatnonzero(self.world.active)
         return slot
 
     def remove(self, slot: int) -> None:
         """Take a character out of the world."""
         self.world.remove(slot)
-        self._who = np.flatnonzero(self.world.active)
 
     def correct(self, slot: int, x: float, z: float, yaw: float) -> None:
         """Move a character's root, metres and radians; its motion goes on from there."""
@@ -151,20 +149,32 @@ class Simulation:
 
     def lasting(self, slot: int) -> tuple[float, str]:
         """What a character is asked for until told otherwise: heading, radians, and behaviour."""
-        orders = self._orders
-        return orders.heading[slot].item(), self.world.graph.behaviours[orders.lasting[slot]]
+        in_force = self._orders.in_force
+        return in_force.heading[slot].item(), self.world.graph.behaviours[in_force.lasting[slot]]
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
-        world, who, orders = self.world, self._who, self._orders
-        asked = orders.at_tick(world.graph.behaviour[world.node])
-        chosen = self._chosen.first(len(who))
-        situations = Situations(who, world.node[who], world.place[who], orders.heading[who], asked[who])
-        self._controller.choose(situations, chosen)
-        self._moves.put(who, chosen)
-        world.step(self._moves)
+        self.play(1, 0)
+
+    def play(self, ticks: int, frames: int) -> NDArray[np.float32]:
+        """Make ticks without a change of commands, and return the poses of all characters in them.
+
+        Args:
+            ticks: how many.
+            frames: how many moments of each tick are shown, evenly, the last being its own.
+
+        Returns:
+            Place of joint 0, then local rotations joint by joint, of the characters by rising slot.
+            # (ticks, frames, characters, 3 + 4 J)
+        """
+        poses = self._no_poses(ticks, frames, len(self.world.slots))
+        self._ticks.make(self.world.slots, NOTHING, poses)
+        self.tick += ticks
         self._note_actions()
-        self.tick += 1
+        return poses
+
+    def _no_poses(self, ticks: int, frames: int, count: int) -> NDArray[np.float32]:
+        return np.empty((ticks, frames, count, 3 + 4 * self.world.graph.skeleton.joint_count), dtype=np.float32)
 
     def _note_actions(self) -> None:
         """What every character does in this tick; the same in all of its frames."""

@@ -140,18 +140,19 @@ class World:
         self.place[slot] = x, z, wrapped_angle(yaw)
         self._begin_smoothing(slot)
 
-    def step(self, moves: Moves) -> None:
-        """Advance every active character one tick by the move chosen for it.
+    def step(self, moves: Moves, slots: NDArray[np.intp] | None = None) -> None:
+        """Advance characters one tick by the moves chosen for them.
 
         Args:
-            moves: a row for each slot; rows of slots that are not active are ignored.  # capacity rows
+            moves: a row for each slot; rows of other slots are ignored.  # capacity rows
+            slots: whose, all of them active; all that are where not given.  # (n,)
 
         Raises:
             WrongMove: when an edge does not leave from its character's node or lead to its target, and for a target
                 or a place that is none; nobody has moved then.
         """
         wrong = advance(
-            self.slots,
+            self.slots if slots is None else slots,
             moves.edge,
             moves.target,
             moves.displacement,

@@ -49,7 +49,7 @@ class PlannedController:
         self.graph = graph
         self._pivot, self._looking, self._plan = warp.pivot, looking, plan
         self._heading, self._behaviour = heading, behaviour
-        self._tick = 0
+        self._tick = np.zeros(1, dtype=np.int64)
 
     @property
     def present(self) -> tuple[str, ...]:
@@ -62,11 +62,15 @@ class PlannedController:
 
     def begin(self, slot: int) -> None:
         """Begin with the first tick."""
-        self._tick = 0
+        self._tick[0] = 0
+
+    def memory(self, capacity: int) -> tuple[NDArray, ...]:
+        """Which tick of the plan comes next, for the one character that there is."""
+        return (self._tick,)
 
     def choose(self, situations: Situations, moves: Moves) -> None:
         """Write the best action of the one character; what it is asked for is known already."""
-        tick, node = self._tick, int(situations.node[0])
+        tick, node = int(self._tick[0]), int(situations.node[0])
         edge, turn = best_ahead(
             self._looking.actions,
             self._looking.discount,
@@ -76,6 +80,6 @@ class PlannedController:
             int(self._behaviour[tick]),
             self._plan.after(tick, node),
         )
-        self._tick = tick + 1
+        self._tick[0] = tick + 1
         along_edges(self.graph, np.array([edge], np.int32), moves)
         turn_moves(self._pivot, moves.target, np.array([turn]), moves.adjustment)

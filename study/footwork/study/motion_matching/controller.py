@@ -1,6 +1,7 @@
 """The motion matching controller."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from footwork.controllers.controller import Situations, present_behaviours
 from footwork.errors import InputError
@@ -64,6 +65,12 @@ class MotionMatchingController:
             self._memory = _with_room(self._memory, 2 * slot + 1)
         for array in self._memory:
             array[slot] = 0
+
+    def memory(self, capacity: int) -> tuple[NDArray, ...]:
+        """All that it remembers, with room for so many slots."""
+        if capacity > len(self._memory.wait):
+            self._memory = _with_room(self._memory, capacity)
+        return tuple(self._memory)
 
     def choose(self, situations: Situations, moves: Moves) -> None:
         """Write the move of each of C characters into ``moves``."""

@@ -1,0 +1,39 @@
+"""Commands with the ticks that they are for, as arrays that kernels read."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.controllers.command import Command
+
+
+class Schedule(NamedTuple):
+    """K commands in the order in which they come into force.
+
+    Args:
+        tick: before which tick of a run, from 0.  # (K,) int64
+        slot: whose.  # (K,) int64
+        heading: of the commands, radians.  # (K,) float64
+        behaviour: of the commands.  # (K,) int64
+        one_shot: of the commands.  # (K,) int64
+    """
+
+    tick: NDArray[np.int64]
+    slot: NDArray[np.int64]
+    heading: NDArray[np.float64]
+    behaviour: NDArray[np.int64]
+    one_shot: NDArray[np.int64]
+
+
+def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
+    """A schedule of (tick, slot, command), those of one tick in the order given."""
+    ordered = sorted(given, key=lambda each: each[0])
+    whole = [(tick, slot, command.behaviour, command.one_shot) for tick, slot, command in ordered]
+    numbers = np.array(whole, dtype=np.int64).reshape(-1, 4).T.copy()
+    heading = np.array([command.heading for _, _, command in ordered], dtype=np.float64)
+    return Schedule(numbers[0], numbers[1], heading, numbers[2], numbers[3])
+
+
+NOTHING = schedule_of(())

@@ -1,0 +1,134 @@
+"""Ticks of characters that a policy table steers, any number of them in one compiled call.
+
+What is done is what ``chosen_ticks`` does one Python call after the other, to the same bytes.
+"""
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from footwork.controllers.orders import InForce, Orders, ask, put_in_force
+from footwork.controllers.policy import Policy
+from footwork.controllers.steering import SteeringController, steer
+from footwork.motion.moves import no_moves
+from footwork.runtime.characters import Characters, Motion, Smoothing
+from footwork.runtime.schedule import Schedule
+from footwork.runtime.ticking import advance, show_characters
+from footwork.runtime.world import World
+
+
+@numba.njit(cache=True, nogil=True)
+def make_ticks(
+    slots: NDArray,
+    schedule: Schedule,
+    behaviour: NDArray,
+    policy: Policy,
+    held: NDArray,
+    in_force: InForce,
+    moves: tuple[NDArray, NDArray, NDArray, NDArray, NDArray],
+    characters: Characters,
+    motion: Motion,
+    smoothing: Smoothing,
+    poses: NDArray,
+) -> None:
+    """Take characters through T ticks and write their poses at F moments of each.
+
+    Args:
+        slots: rows of the characters.  # (n,)
+        schedule: commands to them.
+        behaviour: of the graph.  # (N,)
+        policy: what they are steered by.
+        held: SteeringController.memory.
+        in_force: the commands in force.
+        moves: room to work in: the arrays of Moves, a row for each slot.
+        characters: what the world remembers.
+        motion: what they move on.
+        smoothing: how they are shown.
+        poses: written: place of joint 0, then local rotations joint by joint.  # (T, F, n, 3 + 4 J) float32
+    """
+    edge, target, displacement, adjustment, natural = moves
+    node, place, heading, asked = characters.node, characters.place, in_force.heading, in_force.asked
+    count, frames, joints = slots.shape[0], poses.shape[1], (poses.shape[3] - 3) // 4
+    root, rotations = np.empty((node.shape[0], 3), np.float32), np.empty((node.shape[0], joints, 4), np.float32)
+    come = 0
+    for tick in range(poses.shape[0]):
+        while come < schedule.tick.shape[0] and schedule.tick[come] <= tick:
+            whose = schedule.slot[come]
+            shows = int(behaviour[node[whose]])
+            put_in_force(
+                whose, schedule.heading[come], schedule.behaviour[come], schedule.one_shot[come], shows, in_force
+            )
+            come += 1
+        ask(slots, behaviour[node[slots]], in_force)
+        steer(
+            policy,
+            slots,
+            node[slots],
+            place[slots],
+            heading[slots],
+            asked[slots],
+            held,
+            edge[:count],
+            target[:count],
+            displacement[:count],
+            adjustment[:count],
+            natural[:count],
+        )
+        _put_in_slots(slots, edge, target, displacement, adjustment, natural)
+        advance(slots, edge, target, displacement, adjustment, natural, characters, motion, smoothing)
+        for frame in range(frames):
+            show_characters(slots, (frame + 1) / frames, characters, motion, smoothing, root, rotations)
+            _copy_shown(slots, root, rotations, poses[tick, frame])
+
+
+@numba.njit(cache=True, nogil=True)
+def _put_in_slots(slots, edge, target, displacement, adjustment, natural):
+    """Take moves from the first rows to the rows of their slots: from the last on, as slots rise."""
+    for row in range(slots.shape[0] - 1, -1, -1):
+        who = slots[row]
+        edge[who], target[who], natural[who] = edge[row], target[row], natural[row]
+        for k in range(3):
+            displacement[who, k], adjustment[who, k] = displacement[row, k], adjustment[row, k]
+
+
+@numba.njit(cache=True, nogil=True)
+def _copy_shown(slots, root, rotations, poses):
+    for row in range(slots.shape[0]):
+        who, shown = slots[row], poses[row]
+        for k in range(3):
+            shown[k] = root[who, k]
+        for joint in range(rotations.shape[1]):
+            for k in range(4):
+                shown[3 + 4 * joint + k] = rotations[who, joint, k]
+
+
+class SteeredTicks:
+    """Makes the ticks of a world whose characters a policy table steers.
+
+    Args:
+        controller: the table.
+        world: where the characters are.
+        orders: what they are asked for.
+    """
+
+    def __init__(self, controller: SteeringController, world: World, orders: Orders) -> None:
+        moves = no_moves(world.capacity)
+        self._behaviour, self._policy = world.graph.behaviour, controller.policy
+        (self._held,) = controller.memory(world.capacity)
+        self._in_force = orders.in_force
+        self._moves = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
+        self._world = world.characters, world.motion, world.smoothing
+
+    def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
+        """Take the characters of some slots, in rising order, through the ticks of ``poses``; see ``make_ticks``."""
+        make_ticks(
+            slots,
+            schedule,
+            self._behaviour,
+            self._policy,
+            self._held,
+            self._in_force,
+            self._moves,
+            *self._world,
+            poses,
+        )
