@@ -1,0 +1,71 @@
+"""Spectators of a live server."""
+
+import pytest
+import zmq
+
+from footwork.errors import InputError
+from footwork.protocol.client import Client
+from footwork.protocol.errors import LocalError, RefusedError
+from footwork.protocol.spectator import Spectator, pose_topic
+from footwork.runtime.server import Server
+from served import BUNDLE, serving
+
+ANYWHERE = "tcp://127.0.0.1:0"
+
+
+@pytest.fixture
+def server():
+    with serving(spectate=ANYWHERE) as server:
+        yield server
+
+
+def test_a_spectator_sees_what_the_clients_see(server):
+    with Client(server.address) as one, Client(server.address) as other:
+        one.spawn(7, x=5.0)
+        other.spawn(7, x=-5.0)
+        with Spectator(server.gallery_address) as spectator:
+            assert (spectator.scene.joints, spectator.scene.token) == (one.welcome.joints, b"")
+            public = next(pose for pose in spectator.poses() if pose.character == 0)
+            own = next(pose for pose in one.poses() if (pose.tick, pose.frame) >= (public.tick, public.frame))
+            while (own.tick, own.frame) > (public.tick, public.frame):
+                public = next(pose for pose in spectator.poses() if pose.character == 0)
+        assert (own.root, own.rotations, own.facing) == (public.root, public.rotations, public.facing)
+        assert (own.character, public.acknowledged) == (7, 0)
+
+
+def test_a_spectator_may_look_at_one_character_only(server):
+    with Client(server.address) as client:
+        for number in range(3):
+            client.spawn(number)
+        with Spectator(server.gallery_address, characters=[1]) as spectator:
+            poses = spectator.poses()
+            assert {next(poses).character for _ in range(10)} == {1}
+
+
+def test_in_lock_step_the_last_frame_of_every_tick_is_published():
+    with serving(spectate=ANYWHERE, lockstep=True) as server, Client(server.address) as client:
+        client.spawn(0)
+        watching = zmq.Context.instance().socket(zmq.SUB)
+        with watching:
+            watching.connect(server.gallery_address)
+            watching.subscribe(b"scene")
+            while not watching.poll(1):
+                client.step(30)
+        with pytest.raises(RefusedError, match="no scene"):
+            Spectator(server.gallery_address or "", timeout=0.05)
+
+
+def test_topics_are_no_beginnings_of_others():
+    topics = [pose_topic(number) for number in (0, 1, 10, 100, 65535)]
+    assert not [(a, b) for a in topics for b in topics if a != b and b.startswith(a)]
+
+
+def test_a_place_that_cannot_be_bound_is_refused_and_frees_the_servers_own():
+    server = Server(BUNDLE, bind=ANYWHERE)
+    address = server.address
+    for place in (address, "tcp://127.0.0.1:99999"):
+        with pytest.raises(InputError, match="cannot bind"):
+            Server(BUNDLE, bind=ANYWHERE, spectate=place)
+    server.close()
+    with pytest.raises(LocalError, match="expected such as"):
+        Spectator("nonsense")
