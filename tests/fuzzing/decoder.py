@@ -1,7 +1,7 @@
 """A coverage-guided run on the decoder and the sessions behind it; needs atheris (LibFuzzer for Python, Linux).
 
     pip install atheris
-    python benchmarks/fuzz_guided.py -runs=1000000
+    python tests/fuzzing/decoder.py -runs=1000000
 
 Options are LibFuzzer's. Each input is a few messages, a byte of length before each, of one client. Anything raised but
 a refusal ends the run with the input that did it, and so does a peer that is told something and had said nothing.
@@ -14,15 +14,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import atheris  # pyright: ignore[reportMissingImports]
-import msgpack
+import msgspec
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from footwork.runtime.simulation import Simulation
 from odd_messages import VALID
 from toy_bundle import toy_bundle
 
-with atheris.instrument_imports():  # not of what is above: compiled kernels cannot be looked into
+# not of what is above: compiled kernels cannot be looked into
+with atheris.instrument_imports():  # pyright: ignore[reportAttributeAccessIssue]
     from footwork.protocol import messages as m
     from footwork.protocol.codec import encode
     from footwork.runtime.host import Host
@@ -58,7 +59,7 @@ def main() -> None:
     """Begin with valid messages and go where there is code not yet reached."""
     with tempfile.TemporaryDirectory() as folder:
         for number, fields in enumerate(VALID):
-            data = msgpack.packb(fields)
+            data = msgspec.msgpack.encode(fields)
             (Path(folder) / str(number)).write_bytes(bytes([-(-len(data) // 4)]) + data)
         limits = ["-timeout=1", "-rss_limit_mb=2048", "-max_len=4096"]
         atheris.Setup([sys.argv[0], *limits, *sys.argv[1:], folder], one_input)
