@@ -6,7 +6,9 @@ Prints one JSON object. Server and client are processes of their own, on TCP loo
 run: a bare ROUTER/DEALER echo of messages of the same sizes, and the lateness of an empty loop on the same deadlines.
 
 Command-to-pose is measured twice: for commands sent at random moments, most of which is the wait for the next tick
-(on average half of 33.3 ms), and for commands aimed to arrive ``AIM`` before a tick, where that wait is small.
+(on average half of 33.3 ms), and for commands aimed to arrive ``AIM`` before a tick, where that wait is small. In
+lock-step there is no such wait: a command and a step go out, a pose comes back, and the echo does the same with bare
+messages of their sizes; ``ratio`` is of the medians and of the 99th percentiles.
 Without a bundle it plays the tests' toy one, whose poses have the sizes of any on the common body.
 """
 
@@ -18,6 +20,7 @@ import platform
 import random
 import sys
 import time
+from collections.abc import Sequence
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -53,24 +56,25 @@ def load(path: str) -> Bundle:
     return read_bundle(path) if path else toy_bundle()
 
 
-def serve(path: str, rate: int, pipe: Connection) -> None:
+def serve(path: str, rate: int, lockstep: bool, pipe: Connection) -> None:
     """Process: a server until the pipe says something; tells its address first and its figures last."""
-    server = Server(load(path), bind="tcp://127.0.0.1:0", rate=rate)
+    server = Server(load(path), bind="tcp://127.0.0.1:0", rate=rate, lockstep=lockstep)
     pipe.send(server.address)
     server.run(until=pipe.poll)
     pipe.send({**server.summary(), "lateness_us": shares(server.lateness_us, 50, 99, 99.9)})
 
 
-def echo(sizes: tuple[int, int], pipe: Connection) -> None:
-    """Process: a bare ROUTER that answers each message with one of the size of a pose."""
+def echo(question: int, answers: Sequence[int], pipe: Connection) -> None:
+    """Process: a bare ROUTER that answers each message of so many bytes with messages of others."""
     socket = zmq.Context.instance().socket(zmq.ROUTER)
     socket.bind("tcp://127.0.0.1:*")
     pipe.send(socket.get_string(zmq.LAST_ENDPOINT))
-    answer = bytes(sizes[1])
+    parts = [bytes(size) for size in answers]
     while not pipe.poll():
         if socket.poll(10):
-            peer, _ = socket.recv_multipart()
-            socket.send_multipart([peer, answer])
+            peer, said = socket.recv_multipart()
+            for part in parts if len(said) == question else ():
+                socket.send_multipart([peer, part])
 
 
 def empty_loop(rate: int, seconds: float, pipe: Connection) -> None:
@@ -109,7 +113,7 @@ def command_to_pose(client: Client, seconds: float, aimed: bool) -> list[float]:
 
 def served(path: str, rate: int, seconds: float) -> dict[str, Any]:
     """Figures of a server at one rate."""
-    process, pipe = in_process(serve, path, rate)
+    process, pipe = in_process(serve, path, rate, False)
     with Client(pipe.recv(), timeout=60.0) as client:
         client.spawn(0)
         waits = {name: command_to_pose(client, seconds / 2, name == "aimed") for name in ("random", "aimed")}
@@ -120,30 +124,55 @@ def served(path: str, rate: int, seconds: float) -> dict[str, Any]:
     return {"command_to_pose_ms": times, "commands": {name: len(values) for name, values in waits.items()}} | summary
 
 
-def message_sizes() -> tuple[int, int]:
-    """Bytes of a command and of a pose on the common body."""
+def message_sizes() -> dict[str, int]:
+    """Bytes of a command, a step, a pose on the common body and the answer to a step."""
     command = m.Command(sequence=1000, character=0, heading=1.0, behaviour="walk")
     whole = {"tick": 1000, "frame": 1, "character": 0, "acknowledged": 1000, "behaviour": 1, "clip": 1}
     pose = m.Pose(**whole, source_frame=1, facing=1.0, transition=False, root=bytes(12), rotations=bytes(21 * 16))
-    return len(encode(command)), len(encode(pose))
+    said = {"command": command, "step": m.Step(ticks=1), "pose": pose, "stepped": m.Stepped(tick=1000)}
+    return {name: len(encode(message)) for name, message in said.items()}
 
 
-def bare_echo() -> dict[str, Any]:
-    """Microseconds of a round trip without anything of ours."""
-    sizes = message_sizes()
-    process, pipe = in_process(echo, sizes)
+def bare_echo(questions: Sequence[int], answers: Sequence[int]) -> dict[str, float]:
+    """Microseconds from sending messages of so many bytes to the first answer, without anything of ours."""
+    process, pipe = in_process(echo, questions[-1], answers)
     socket = zmq.Context.instance().socket(zmq.DEALER)
     socket.connect(pipe.recv())
-    question, trips = bytes(sizes[0]), []
+    said, trips = [bytes(size) for size in questions], []
     for _ in range(ECHOES):
         sent = time.perf_counter()
-        socket.send(question)
+        for question in said:
+            socket.send(question)
         socket.recv()
         trips.append(1e6 * (time.perf_counter() - sent))
+        for _ in answers[1:]:
+            socket.recv()
     socket.close(linger=0)
     pipe.send("enough")
     process.join()
-    return {"bytes": sizes, "round_trip_us": shares(trips[ECHOES // 10 :], 50, 99)}
+    return shares(trips[ECHOES // 10 :], 50, 99)
+
+
+def in_lock_step(path: str) -> dict[str, Any]:
+    """Microseconds from a command and a step to the pose, beside the echo of messages of the same sizes."""
+    process, pipe = in_process(serve, path, 30, True)
+    rng, trips = random.Random(1), []
+    with Client(pipe.recv(), timeout=60.0) as client:
+        client.spawn(0)
+        behaviour = client.welcome.behaviours[0]
+        for _ in range(ECHOES):
+            sent = time.perf_counter()
+            client.command(0, rng.uniform(-3.0, 3.0), behaviour)
+            client.step()
+            trips.append(1e6 * (time.perf_counter() - sent))
+    pipe.send("enough")
+    summary = pipe.recv()
+    process.join()
+    size = message_sizes()
+    bare = bare_echo((size["command"], size["step"]), (size["pose"], size["stepped"]))
+    ours = shares(trips[ECHOES // 10 :], 50, 99)
+    ratio = {name: round(ours[name] / bare[name], 2) for name in ours}
+    return {"command_to_pose_us": ours, "bare_us": bare, "ratio": ratio, "tick_us": summary["tick_us"], "bytes": size}
 
 
 def idle(rate: int, seconds: float) -> dict[str, float]:
@@ -161,7 +190,9 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=10.0, help="of each measurement (default 10)")
     options = parser.parse_args()
     report: dict[str, Any] = {"machine": platform.machine(), "cores": os.cpu_count(), "load": os.getloadavg()[0]}
-    report["echo"] = bare_echo()
+    size = message_sizes()
+    report["echo"] = {"bytes": size, "round_trip_us": bare_echo((size["command"],), (size["pose"],))}
+    report["lock_step"] = in_lock_step(options.bundle)
     for rate in (30, 60):
         figures = served(options.bundle, rate, options.seconds)
         report[f"rate_{rate}"] = figures | {"empty_loop_lateness_us": idle(rate, options.seconds)}
