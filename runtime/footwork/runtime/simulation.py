@@ -3,6 +3,7 @@
 No socket, no session, no clock: the server drives it tick by tick, and so does whatever runs without one.
 """
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,8 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.task import ONE_SHOT
-from footwork.runtime.schedule import NOTHING
+from footwork.runtime.schedule import NOTHING, schedule_of
+from footwork.runtime.snapshot import Snapshots
 from footwork.runtime.ticks import ticks_of
 from footwork.runtime.warm import warm_kernels
 from footwork.runtime.world import World
@@ -96,6 +98,9 @@ class Simulation:
         self._clip_of, self._frame_of = graph.nearest_source
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self._orders)
+        belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
+        memory = self._controller.memory(capacity)
+        self._snapshots = Snapshots(self.world, self._orders, memory, belongs_to)
         self._note_actions()
 
     def _numbering(self) -> NDArray[np.int32]:
@@ -172,6 +177,48 @@ class Simulation:
         self.tick += ticks
         self._note_actions()
         return poses
+
+    def snapshot(self, slots: Sequence[int]) -> bytes:
+        """All that is remembered of some characters, as a blob that ``restore`` takes.
+
+        Raises:
+            NoSuchCharacter: for a slot that holds none.
+        """
+        return self._snapshots.take(self._rows(slots), self.tick)
+
+    def restore(self, blob: bytes, slots: Sequence[int]) -> int:
+        """Put the characters of a blob into as many slots that hold some, in place of those.
+
+        They go on from there as they did before; all others stay as they are, and so does the tick.
+
+        Returns:
+            The tick after which the blob was taken.
+
+        Raises:
+            NoSuchCharacter: for a slot that holds none.
+            InputError: for a blob that is damaged, of another bundle, version or number of characters, or holds what
+                cannot be; nothing has changed then.
+        """
+        return self._snapshots.put(blob, self._rows(slots))
+
+    def resimulate(self, slots: Sequence[int], ticks: int, given: Iterable[tuple[int, int, Command]] = ()) -> None:
+        """Take some characters through ticks by themselves, as after ``restore``; the simulation's tick stays.
+
+        Args:
+            slots: which, in rising order.
+            ticks: how many.
+            given: commands, each with the tick before which it comes into force, from 0, and its slot.
+
+        Raises:
+            NoSuchCharacter: for a slot that holds none.
+        """
+        self._ticks.make(self._rows(slots), schedule_of(given), self._no_poses(ticks, 0, len(slots)))
+        self._note_actions()
+
+    def _rows(self, slots: Sequence[int]) -> NDArray[np.intp]:
+        for slot in slots:
+            self.world.require(slot)
+        return np.array(slots, dtype=np.intp)
 
     def _no_poses(self, ticks: int, frames: int, count: int) -> NDArray[np.float32]:
         return np.empty((ticks, frames, count, 3 + 4 * self.world.graph.skeleton.joint_count), dtype=np.float32)

@@ -106,7 +106,7 @@ class World:
         Raises:
             NoSuchCharacter: for a slot that holds none.
         """
-        self._require(slot)
+        self.require(slot)
         self.active[slot] = False
         self.slots = np.flatnonzero(self.active)
         self.node[slot] = 0
@@ -118,7 +118,7 @@ class World:
             NoSuchCharacter: for a slot that holds none.
             WorldError: for a place that is not finite.
         """
-        self._require(slot)
+        self.require(slot)
         _require_finite(x, z, yaw)
         move_locks(self.characters.anchor[slot], self.characters.slip[slot], self.place[slot], (x, z, yaw))
         turn = yaw - self.place[slot, 2]
@@ -135,7 +135,7 @@ class World:
             NoSuchCharacter: for a slot that holds none.
             WorldError: for a place that is not finite.
         """
-        self._require(slot)
+        self.require(slot)
         _require_finite(x, z, yaw)
         self.place[slot] = x, z, wrapped_angle(yaw)
         self._begin_smoothing(slot)
@@ -181,7 +181,12 @@ class World:
         show_characters(self.slots, fraction, self.characters, self.motion, self.smoothing, *shown)
         return shown
 
-    def _require(self, slot: int) -> None:
+    def require(self, slot: int) -> None:
+        """Refuse a slot that holds no character.
+
+        Raises:
+            NoSuchCharacter: for such a slot.
+        """
         if not (0 <= slot < self.capacity and self.active[slot]):
             raise NoSuchCharacter(f"no character {slot}; there are {int(self.active.sum())}")
 
