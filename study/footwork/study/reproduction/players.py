@@ -34,6 +34,7 @@ class Setting:
         mirror: whether clips are played with left and right exchanged, too.
         warp: the largest extra turn of a tick, degrees.
         bridges: ways from every frame to each other behaviour (``GraphOptions.bridges``).
+        pairing: which stretches a well-connected graph interpolates (``GraphOptions.pairing``).
         reward: of its policy (``SteeringTask.reward``).
         weight: of the transition quality, where the reward is a sum.
     """
@@ -43,15 +44,15 @@ class Setting:
     mirror: bool = False
     warp: float = 0.0
     bridges: int = 0
+    pairing: str = "ratio"
     reward: str = "product"
     weight: float = 1.0
 
     @property
     def options(self) -> GraphOptions:
         """How its graph is built."""
-        return GraphOptions(
-            graph=self.graph, threshold=self.threshold, mirror=self.mirror, bridges=self.bridges, mu=5.0
-        )
+        only = {"mu": 5.0, "pairing": self.pairing} if self.graph == WELL_CONNECTED else {}
+        return GraphOptions(self.graph, self.threshold, mirror=self.mirror, bridges=self.bridges, **only)
 
     @property
     def task(self) -> SteeringTask:
