@@ -1,14 +1,24 @@
 """``footwork serve``: the server."""
 
+from __future__ import annotations
+
+import logging
 import math
 import time
+from contextlib import ExitStack
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
+from footwork.cli.default_bundle import cache_folder
 from footwork.cli.output import emit, log
 from footwork.errors import InputError
+
+if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help loads no numerics
+    from footwork.motion.bundle import Bundle
+
+Off = Parameter(negative=())
 
 
 def serve(
@@ -19,10 +29,19 @@ def serve(
     rate: int = 60,
     seconds: float | None = None,
     inertialise: bool = True,
+    lock_step: Annotated[bool, Off] = False,
+    spectate: str | None = None,
     curve: Path | None = None,
-    json: Annotated[bool, Parameter(negative=())] = False,
+    metrics: str | None = None,
+    watch: Annotated[bool, Off] = False,
+    shared: Annotated[bool, Off] = False,
+    realtime: Annotated[bool, Off] = False,
+    log_format: Annotated[Literal["text", "json"] | None, Parameter(name="--log")] = None,
+    json: Annotated[bool, Off] = False,
 ) -> None:
     """Serve a bundle's character to game clients over ZeroMQ, until interrupted.
+
+    SIGTERM ends it with a bye to all clients; SIGHUP lets it read the bundle again and go on with that.
 
     Example: footwork serve walker.footwork --bind tcp://127.0.0.1:5555 --rate 60
 
@@ -32,20 +51,61 @@ def serve(
         rate: Frames sent a second: 30, 60 or 120.
         seconds: Stop by itself after this long.
         inertialise: Smooth transitions; --no-inertialise shows the bare jumps.
+        lock_step: Make ticks when the clients ask for them, not by a clock.
+        spectate: Where spectators may watch all characters, such as tcp://127.0.0.1:5556.
         curve: Let in only clients whose keys are allowed in this folder of `footwork keys`.
+        metrics: Answer /health and /metrics (Prometheus) over HTTP here, such as 127.0.0.1:9095.
+        watch: Read the bundle again whenever its file is replaced, as at SIGHUP.
+        shared: Keep the bundle in memory that all servers on this machine share which serve the same one.
+        realtime: Take real-time priority and keep memory from being swapped out, where the system permits it.
+        log_format: Log what happens on stderr, as text or one JSON object a line; otherwise only warnings.
         json: Print the summary as one JSON object when done.
     """
-    from footwork.motion.bundle import read_bundle
     from footwork.runtime.key_folder import KeyFolder
+    from footwork.runtime.logs import logging_to_stderr
+    from footwork.runtime.monitoring import Monitoring
+    from footwork.runtime.realtime import take_realtime
+    from footwork.runtime.reload import Reloader
     from footwork.runtime.server import Server
-    from footwork.runtime.signals import stopped_by_signals
+    from footwork.runtime.signals import answering_signals
 
     if seconds is not None and not seconds > 0.0:
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
-    keys = None if curve is None else KeyFolder(curve)
-    server = Server(read_bundle(bundle), bind=bind, rate=rate, inertialise=inertialise, keys=keys)
-    end = math.inf if seconds is None else time.monotonic() + seconds
-    with stopped_by_signals(server):
-        log(f"listening on {server.address}")
+    with ExitStack() as held:
+        if log_format is not None:
+            held.enter_context(logging_to_stderr(log_format))
+        read = _read_shared if shared else _read
+        server = Server(
+            read(bundle),
+            bind=bind,
+            rate=rate,
+            inertialise=inertialise,
+            lockstep=lock_step,
+            spectate=spectate,
+            keys=None if curve is None else KeyFolder(curve),
+        )
+        if metrics is not None:
+            held.enter_context(Monitoring(server, metrics))
+        reloader = held.enter_context(Reloader(server, bundle, read=read, watch=watch))
+        tell = log if log_format is None else logging.getLogger(__name__).info
+        for problem in take_realtime() if realtime else ():
+            tell(problem)
+        held.enter_context(answering_signals(server, reloader.ask))
+        tell(f"listening on {server.address}")
+        if server.gallery_address is not None:
+            tell(f"spectators at {server.gallery_address}")
+        end = math.inf if seconds is None else time.monotonic() + seconds
         server.run(until=lambda: time.monotonic() >= end)
     emit(server.summary(), json, f"{server.address}")
+
+
+def _read(path: Path) -> Bundle:
+    from footwork.motion.bundle import read_bundle
+
+    return read_bundle(path)
+
+
+def _read_shared(path: Path) -> Bundle:
+    from footwork.runtime.shared_bundle import shared_bundle
+
+    return shared_bundle(path, cache_folder() / "served")

@@ -1,11 +1,13 @@
 """A bundle replaced under a running server: read and checked on a thread of its own, put in place between two ticks.
 
 A replacement that cannot be read, is damaged or has another body is told of in the log, and the old one goes on. The
-new bundle is read into memory, never mapped, so that whatever becomes of the file changes nothing.
+new bundle is read into memory, or mapped from a copy of the servers' own, so that whatever becomes of the file changes
+nothing.
 """
 
 import logging
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Self
 
@@ -25,12 +27,16 @@ class Reloader:
     Args:
         server: whose it is.
         path: the bundle's file.
+        read: how to read it.
         watch: read it whenever the file has changed, beside when asked.
     """
 
-    def __init__(self, server: Server, path: Path, *, watch: bool = False) -> None:
+    def __init__(
+        self, server: Server, path: Path, *, read: Callable[[Path], Bundle] = read_bundle, watch: bool = False
+    ) -> None:
         self._server = server
         self._path = path
+        self._read = read
         self._watch = watch
         self._asked = False
         self._ending = threading.Event()
@@ -77,7 +83,7 @@ class Reloader:
 
     def _reload(self) -> None:
         try:
-            bundle = read_bundle(self._path)
+            bundle = self._read(self._path)
             if bundle.digest == self._server.simulation.bundle.digest:
                 log.info("the bundle is the one that is served: %s", self._path)
             else:

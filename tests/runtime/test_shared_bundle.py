@@ -1,0 +1,48 @@
+"""Bundles in shared memory: a copy of the servers' own, sound whatever becomes of the file."""
+
+import numpy as np
+import pytest
+
+from footwork.errors import InputError
+from footwork.motion.bundle import write_bundle
+from footwork.runtime.shared_bundle import shared_bundle
+from toy_bundle import toy_bundle
+
+
+@pytest.fixture
+def path(tmp_path):
+    write_bundle(tmp_path / "b.footwork", toy_bundle())
+    return tmp_path / "b.footwork"
+
+
+def test_a_file_cut_short_in_place_leaves_the_bundle_as_it_was(path, tmp_path):
+    bundle = shared_bundle(path, tmp_path / "store")
+    with path.open("r+b") as file:
+        file.truncate(100)
+    for name in ("rotations", "root_position", "target"):
+        np.testing.assert_array_equal(getattr(bundle.graph, name), getattr(toy_bundle().graph, name))
+
+
+def test_servers_of_the_same_bundle_share_one_copy(path, tmp_path):
+    for _ in range(2):
+        assert shared_bundle(path, tmp_path / "store").digest == toy_bundle().digest
+    (copy,) = (tmp_path / "store").iterdir()
+    assert copy.name == f"{toy_bundle().digest}.footwork"
+
+
+def test_a_damaged_copy_is_made_anew(path, tmp_path):
+    shared_bundle(path, tmp_path / "store")
+    (copy,) = (tmp_path / "store").iterdir()
+    copy.write_bytes(b"damaged")
+    assert shared_bundle(path, tmp_path / "store").digest == toy_bundle().digest
+
+
+def test_what_is_no_bundle_is_copied_nowhere(tmp_path):
+    (tmp_path / "b.footwork").write_bytes(b"nothing")
+    with pytest.raises(InputError, match="cut short"):
+        shared_bundle(tmp_path / "b.footwork", tmp_path / "store")
+    assert not (tmp_path / "store").exists()
+    (tmp_path / "file").touch()
+    write_bundle(tmp_path / "b.footwork", toy_bundle())
+    with pytest.raises(InputError, match="cannot be made"):
+        shared_bundle(tmp_path / "b.footwork", tmp_path / "file" / "store")
