@@ -18,7 +18,8 @@ def interrupt_build(out: Path, stage: bytes, *options: str) -> tuple[int, str]:
     """Interrupt a real build, watched at a terminal, once it shows a stage; its exit status and last words."""
     command = [sys.executable, "-m", "footwork.cli.main", "build", "embedded:locomotion", *options, "--out", out]
     shown, hidden = pty.openpty()
-    with subprocess.Popen(command, stderr=hidden, env=os.environ | {"COLUMNS": "120", "TERM": "xterm"}) as process:
+    terminal = os.environ | {"COLUMNS": "120", "TERM": "xterm"}
+    with subprocess.Popen(command, stderr=hidden, env=terminal, preexec_fn=interruptible) as process:
         os.close(hidden)
         read_until(shown, stage)
         process.send_signal(signal.SIGINT)
@@ -26,6 +27,11 @@ def interrupt_build(out: Path, stage: bytes, *options: str) -> tuple[int, str]:
         status = process.wait(PATIENCE)
     os.close(shown)
     return status, words.decode().strip().splitlines()[-1].rpartition("\x1b[2K")[2]
+
+
+def interruptible() -> None:
+    """Take interrupts, though these tests may run behind a shell that has its children ignore them."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def read_until(terminal: int, text: bytes) -> bytes:

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from threading import Thread
 
@@ -286,7 +287,9 @@ def test_an_interrupt_takes_back_what_the_cluster_has_not_begun(cluster, tmp_pat
         "    run_tasks(announced, (numpy.zeros(64),), [(folder, number) for number in range(400)])"
     )
     command = [sys.executable, "-c", code, str(tmp_path), cluster.address]
-    with subprocess.Popen(command, env=environment(), stderr=subprocess.PIPE) as process:
+    # interruptible, though this may run behind a shell that has its children ignore interrupts
+    heeding = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    with subprocess.Popen(command, env=environment(), stderr=subprocess.PIPE, preexec_fn=heeding) as process:
         await_file(tmp_path / "1")
         process.send_signal(signal.SIGINT)
         said = process.communicate(timeout=30)[1].decode()
