@@ -9,7 +9,7 @@ from footwork.protocol.client import Client
 from footwork.protocol.curve import CurveKeys, KeyPair
 from footwork.protocol.errors import RefusedError
 from footwork.runtime.key_folder import KeyFolder
-from serving import serving
+from served import serving
 
 
 @pytest.fixture

@@ -12,7 +12,7 @@ import pytest
 from footwork.errors import InputError
 from footwork.protocol.client import Client
 from footwork.runtime.monitoring import Monitoring
-from serving import serving
+from served import serving
 
 
 def got(url: str) -> tuple[int, str]:

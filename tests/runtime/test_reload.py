@@ -15,7 +15,7 @@ from footwork.protocol.pose_arrays import root_of
 from footwork.runtime.reload import Reloader
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.succession import Succession, nearest_nodes
-from serving import serving
+from served import serving
 from toy_bundle import toy_bundle
 
 
