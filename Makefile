@@ -6,7 +6,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 WORKERS ?= 2
 
-.PHONY: help demo test check bench format clean
+.PHONY: help demo test check lint types examples bench format clean
 help:  ## what can be made
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/'
 
@@ -29,11 +29,17 @@ demo: $(VENV)/installed  ## build, serve and drive a character made from embedde
 test: $(VENV)/developing  ## run the tests
 	$(BIN)/python -m pytest --numprocesses $(WORKERS) --dist worksteal --ignore tests/docs
 
-check: $(VENV)/developing  ## lint, types, import rules, every example of the documentation
+check: lint types examples  ## lint, types, import rules, every example of the documentation
+
+lint: $(VENV)/developing
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/pyright
 	$(BIN)/lint-imports
+
+types: $(VENV)/developing
+	$(BIN)/pyright
+
+examples: $(VENV)/developing
 	$(BIN)/python -m pytest tests/docs
 
 bench: $(VENV)/developing  ## run the benchmarks, each prints JSON
