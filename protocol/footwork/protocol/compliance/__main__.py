@@ -1,0 +1,22 @@
+"""``python -m footwork.protocol.compliance ADDRESS``: prints which checks a server passes; exit status 1 if not all."""
+
+import sys
+from functools import partial
+
+from footwork.protocol.client import DEFAULT_ADDRESS
+from footwork.protocol.compliance import run
+from footwork.protocol.compliance.peer import SocketLine
+
+
+def main(address: str = DEFAULT_ADDRESS) -> int:
+    """Check the server at an address; how many checks it failed."""
+    outcomes = run(partial(SocketLine, address))
+    for outcome in outcomes:
+        print(f"FAIL  {outcome.name}: {outcome.problem}" if outcome.problem else f"pass  {outcome.name}")
+    failed = sum(bool(outcome.problem) for outcome in outcomes)
+    print(f"{len(outcomes) - failed} passed, {failed} failed")
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(min(1, main(*sys.argv[1:])))
