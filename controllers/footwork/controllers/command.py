@@ -41,6 +41,7 @@ class Vocabulary:
     def __init__(self, behaviours: tuple[str, ...], present: Collection[str]) -> None:
         self.present = tuple(name for name in behaviours if name in present)
         self._index = {name: index for index, name in enumerate(behaviours) if name in present}
+        self._numbers = {NONE, *self._index.values()}
 
     def index(self, behaviour: str) -> int:
         """The number of a behaviour.
@@ -52,6 +53,18 @@ class Vocabulary:
             return self._index[behaviour]
         except KeyError:
             raise UnknownBehaviour(f"no behaviour {behaviour!r}, it has {', '.join(self.present)}", "command") from None
+
+    def require(self, command: Command) -> None:
+        """Refuse a command that the bundle cannot follow.
+
+        Raises:
+            UnknownBehaviour: for a behaviour that no frame shows.
+            InputError: for a heading that is not finite.
+        """
+        if command.behaviour not in self._numbers or command.one_shot not in self._numbers:
+            problem = f"behaviours {command.behaviour} and {command.one_shot}, expected among {sorted(self._numbers)}"
+            raise UnknownBehaviour(problem, "command")
+        _require_finite(command.heading, "heading")
 
     def of_keys(self, view_yaw: float, forward: float, strafe: float, run: bool, one_shot: str = "") -> Command:
         """The command of held keys; ``one_shot`` names the behaviour whose key is held, such as jump.

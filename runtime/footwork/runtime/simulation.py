@@ -3,8 +3,7 @@
 No socket, no session, no clock: the server drives it tick by tick, and so does whatever runs without one.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,19 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.task import ONE_SHOT
+from footwork.runtime.pose_frames import PoseFrames
+from footwork.runtime.recorder import Recorder, state_digest
+from footwork.runtime.recording import (
+    STATE_TICKS,
+    Commanded,
+    Corrected,
+    Effect,
+    Removed,
+    Resimulated,
+    Restored,
+    Spawned,
+    Teleported,
+)
 from footwork.runtime.schedule import NOTHING, schedule_of
 from footwork.runtime.snapshot import Snapshots
 from footwork.runtime.ticks import ticks_of
@@ -24,31 +36,6 @@ from footwork.runtime.world import World
 
 STEERING = "steering"
 _IDLE = "stop"
-
-
-@dataclass(frozen=True, eq=False)
-class PoseFrames:
-    """What is shown of every slot at one moment; rows of slots that hold no character mean nothing.
-
-    The arrays are the simulation's own, and hold until the next step or show.
-
-    Args:
-        root: place of joint 0 in the world, metres.  # (capacity, 3) float32
-        rotations: local rotations xyzw, joint 0 in the world.  # (capacity, J, 4) float32
-        facing: yaw at the tick's moment, radians.  # (capacity,)
-        behaviour: index into ``Simulation.behaviours``, -1 for none of them.  # (capacity,)
-        clip: the source clip of the greater weight, an index into the graph's clips.  # (capacity,)
-        source_frame: frame of that clip at 30 Hz.  # (capacity,)
-        transition: whether the last move left the captured order.  # (capacity,) bool
-    """
-
-    root: NDArray[np.float32]
-    rotations: NDArray[np.float32]
-    facing: NDArray[np.float64]
-    behaviour: NDArray[np.int32]
-    clip: NDArray[np.int32]
-    source_frame: NDArray[np.int32]
-    transition: NDArray[np.bool_]
 
 
 class Simulation:
@@ -101,6 +88,7 @@ class Simulation:
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
         memory = self._controller.memory(capacity)
         self._snapshots = Snapshots(self.world, self._orders, memory, belongs_to)
+        self._recorder: Recorder | None = None
         self._note_actions()
 
     def _numbering(self) -> NDArray[np.int32]:
@@ -129,24 +117,37 @@ class Simulation:
         slot = self.world.spawn(self._start[start] if node is None else node, x, z, yaw)
         self._controller.begin(slot)
         self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in ONE_SHOT else start))
+        self._record(Spawned, slot, float(x), float(z), float(yaw), behaviour, -1 if node is None else node)
         return slot
 
     def remove(self, slot: int) -> None:
         """Take a character out of the world."""
         self.world.remove(slot)
+        self._record(Removed, slot)
 
     def correct(self, slot: int, x: float, z: float, yaw: float) -> None:
         """Move a character's root, metres and radians; its motion goes on from there."""
         self.world.correct(slot, x, z, yaw)
+        self._record(Corrected, slot, float(x), float(z), float(yaw))
 
     def teleport(self, slot: int, x: float, z: float, yaw: float) -> None:
         """Put a character elsewhere, metres and radians; no offset and no foot lock goes along."""
         self.world.teleport(slot, x, z, yaw)
+        self._record(Teleported, slot, float(x), float(z), float(yaw))
 
     def give(self, slot: int, command: Command) -> None:
-        """Put a command into force, from the next tick on."""
+        """Put a command into force, from the next tick on.
+
+        Raises:
+            NoSuchCharacter: for a slot that holds none.
+            UnknownBehaviour: for a behaviour that the bundle lacks.
+            InputError: for a heading that is not finite.
+        """
+        self.world.require(slot)
+        self.vocabulary.require(command)
         shown = self.world.graph.behaviour[self.world.node[slot]]
         self._orders.give(slot, command, int(shown))
+        self._record(Commanded, slot, float(command.heading), command.behaviour, command.one_shot)
 
     def stand(self, slot: int) -> None:
         """Let a character stop where it is, as far as the bundle lets it."""
@@ -176,6 +177,8 @@ class Simulation:
         self._ticks.make(self.world.slots, NOTHING, poses)
         self.tick += ticks
         self._note_actions()
+        if self._recorder is not None and self.tick - self._recorder.state_tick >= STATE_TICKS:
+            self._record_state(self._recorder)
         return poses
 
     def snapshot(self, slots: Sequence[int]) -> bytes:
@@ -199,21 +202,57 @@ class Simulation:
             InputError: for a blob that is damaged, of another bundle, version or number of characters, or holds what
                 cannot be; nothing has changed then.
         """
-        return self._snapshots.put(blob, self._rows(slots))
+        tick = self._snapshots.put(blob, self._rows(slots))
+        self._record(Restored, tuple(map(int, slots)), blob)
+        return tick
 
     def resimulate(self, slots: Sequence[int], ticks: int, given: Iterable[tuple[int, int, Command]] = ()) -> None:
         """Take some characters through ticks by themselves, as after ``restore``; the simulation's tick stays.
 
         Args:
-            slots: which, in rising order.
+            slots: which.
             ticks: how many.
             given: commands, each with the tick before which it comes into force, from 0, and its slot.
 
         Raises:
             NoSuchCharacter: for a slot that holds none.
+            UnknownBehaviour: for a command that the bundle cannot follow.
         """
-        self._ticks.make(self._rows(slots), schedule_of(given), self._no_poses(ticks, 0, len(slots)))
+        given, rows = list(given), np.unique(self._rows(slots))
+        for _, slot, command in given:
+            self.world.require(slot)
+            self.vocabulary.require(command)
+        schedule = schedule_of(given)
+        self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
         self._note_actions()
+        columns = (column.tolist() for column in schedule)
+        if self._recorder is not None:
+            self._record(Resimulated, tuple(map(int, slots)), ticks, tuple(zip(*columns, strict=True)))
+
+    def digest(self) -> bytes:
+        """A digest of all that is remembered of all characters.  # 16 bytes"""
+        return state_digest(*self._state())
+
+    def record(self, recorder: Recorder) -> None:
+        """Tell a recorder, from when nobody is here yet, what takes effect until ``end_recording``."""
+        self._recorder = recorder
+
+    def end_recording(self) -> None:
+        """End the recording, if there is one, after the tick last made."""
+        if self._recorder is not None:
+            self._record_state(self._recorder)
+            self._recorder.end(self.tick)
+            self._recorder = None
+
+    def _record(self, kind: Callable[..., Effect], *fields: object) -> None:
+        if self._recorder is not None:
+            self._recorder.add(kind(self.tick + 1, *fields))
+
+    def _record_state(self, recorder: Recorder) -> None:
+        recorder.add_state(self.tick, *self._state())
+
+    def _state(self) -> tuple[bytes, bytes]:
+        return self.world.slots.astype("<i8").tobytes(), self._snapshots.rows(self.world.slots)
 
     def _rows(self, slots: Sequence[int]) -> NDArray[np.intp]:
         for slot in slots:

@@ -1,0 +1,31 @@
+"""What is shown of all characters at one moment."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class PoseFrames:
+    """What is shown of every slot at one moment; rows of slots that hold no character mean nothing.
+
+    The arrays are the simulation's own, and hold until the next step or show.
+
+    Args:
+        root: place of joint 0 in the world, metres.  # (capacity, 3) float32
+        rotations: local rotations xyzw, joint 0 in the world.  # (capacity, J, 4) float32
+        facing: yaw at the tick's moment, radians.  # (capacity,)
+        behaviour: index into ``Simulation.behaviours``, -1 for none of them.  # (capacity,)
+        clip: the source clip of the greater weight, an index into the graph's clips.  # (capacity,)
+        source_frame: frame of that clip at 30 Hz.  # (capacity,)
+        transition: whether the last move left the captured order.  # (capacity,) bool
+    """
+
+    root: NDArray[np.float32]
+    rotations: NDArray[np.float32]
+    facing: NDArray[np.float64]
+    behaviour: NDArray[np.int32]
+    clip: NDArray[np.int32]
+    source_frame: NDArray[np.int32]
+    transition: NDArray[np.bool_]
