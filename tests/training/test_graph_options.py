@@ -47,7 +47,9 @@ def test_options_of_the_well_connected_graph_are_refused_for_a_standard_one(give
 
 
 def test_an_unknown_name_is_met_by_those_there_are():
-    with pytest.raises(InputError, match=r"^--graph: no graph 'foo', expected one of standard, well-connected$"):
+    with pytest.raises(
+        InputError, match=r"^--graph: no graph 'foo', expected one of standard, well-connected, annotated$"
+    ):
         GraphOptions(graph="foo")
 
 

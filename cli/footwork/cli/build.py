@@ -12,7 +12,8 @@ from footwork.cli.motions import AS_USUAL, Reading, load_motions
 from footwork.cli.output import emit, log, progress
 from footwork.cli.traces import read_traces
 from footwork.errors import InputError
-from footwork.training.graph_options import GraphOptions
+from footwork.motion.state_machine import read_state_machine
+from footwork.training.graph_options import GraphOptions, require_machine
 from footwork.training.task_options import TaskOptions
 
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help answers at once
@@ -29,6 +30,7 @@ def build(
     out: Path,
     options: Annotated[GraphOptions, Parameter(name="*")] = _AS_USUAL,
     asked: Annotated[TaskOptions, Parameter(name="*")] = _USUALLY_ASKED,
+    machine: Path | None = None,
     players: Path | None = None,
     backend: str = "threads",
     scheduler: str | None = None,
@@ -44,6 +46,7 @@ def build(
         out: The bundle to write; an older one there is replaced only once the new one is whole.
         options: The kind of motion graph and how it is built.
         asked: What the policy is asked to do, and what it may do for it.
+        machine: The states of an annotated graph and which may follow which (TOML).
         players: A trace (CSV), or a folder of them: players whose changes of mind the policy learns to expect; without
             any it expects none.
         backend: Where the search for a well-connected graph's transitions runs: threads, or dask for a cluster.
@@ -57,6 +60,8 @@ def build(
     from footwork.training.warm import start_warming
 
     _check_place(out)
+    require_machine(options, machine is not None)
+    states = read_state_machine(machine) if machine else None
     task = asked.task()
     recorded = read_traces(players) if players else []
     started = time.perf_counter()
@@ -70,10 +75,15 @@ def build(
         report_progress("compiling", 0.0)
         warming.join()
         compiled = time.perf_counter() - started - read
-        bundle, report = build_bundle(dataset, options, task=task, players=recorded, progress=report_progress)
+        bundle, report = build_bundle(
+            dataset, options, task=task, machine=states, players=recorded, progress=report_progress
+        )
         digest = write_bundle(out, bundle)
     if report["policy"] is None:
         log("no frame shows a behaviour that can be asked for, so there is no policy: see --labels")
+    if outside := report.get("outside"):
+        words = ", ".join(f"{label} {frames}" for label, frames in outside.items())
+        log(f"{sum(outside.values())} frames show no state of {machine} and are left out: {words}")
     if warning := report.get("knee", {}).get("warning"):
         log(warning)
     seconds = report["seconds"] | {"read": read, "compile": compiled, "total": time.perf_counter() - started}

@@ -12,10 +12,12 @@ from numpy.typing import DTypeLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion import tensor_file
+from footwork.motion.annotation import Annotation, NextHops
 from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import ARRAYS, MotionGraph
 from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.skeleton import Skeleton
+from footwork.motion.state_machine import State, StateMachine
 from footwork.motion.table import SHORTLIST_KINDS, PolicyTable
 from footwork.motion.task import SteeringTask
 
@@ -40,10 +42,11 @@ class Bundle:
         provenance: JSON-able: source files with their digests, options, versions, counts before and after.
         attribution: what the licences of the sources ask to have shown, a line each.
         digest: SHA-256 of the file, empty before it is sealed.
+        annotation: states, segments and quickest ways of a state-annotated graph, None for any other.
 
     Raises:
-        InputError: for a graph with no nodes or with a node that leads nowhere, and for a table of other nodes or
-            behaviours than the graph's.
+        InputError: for a graph with no nodes or with a node that leads nowhere, for a table of other nodes or
+            behaviours than the graph's, and for an annotation of another graph.
     """
 
     graph: MotionGraph
@@ -51,12 +54,15 @@ class Bundle:
     provenance: Mapping[str, Any] = field(default_factory=dict)
     attribution: tuple[str, ...] = ()
     digest: str = ""
+    annotation: Annotation | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "attribution", tuple(self.attribution))
         self._check_graph()
         for table in self.tables.values():
             self._check_table(table)
+        if self.annotation is not None:
+            self.annotation.require_fits(self.graph)
 
     def _check_graph(self) -> None:
         graph = self.graph
@@ -109,6 +115,8 @@ class _About(msgspec.Struct):
     tables: dict[str, _Table]
     provenance: dict[str, Any]
     attribution: list[str]
+    states: list[State] | None = None
+    """Of a state-annotated graph."""
 
 
 def write_bundle(path: str | Path, bundle: Bundle) -> str:
@@ -154,7 +162,8 @@ def decode_bundle(data: tensor_file.Data, where: str) -> Bundle:
     about = tensor_file.decode_about(text, _About, where)
     tables = {name: _table(table, arrays, name, where) for name, table in about.tables.items()}
     graph = _graph(about, arrays, where)
-    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest)
+    annotation = None if about.states is None else _annotation(about.states, arrays, where)
+    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest, annotation)
 
 
 def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
@@ -164,6 +173,8 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
     arrays |= {f"skeleton.{name}": getattr(graph.skeleton, name) for name in _BODY_ARRAYS}
     for name, table in bundle.tables.items():
         arrays |= _table_arrays(name, table.require_converged())
+    if bundle.annotation is not None:
+        arrays |= _annotation_arrays(bundle.annotation)
     about = {
         "version": VERSION,
         "joints": graph.skeleton.names,
@@ -173,7 +184,7 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
         "tables": {name: _about_table(table) for name, table in bundle.tables.items()},
         "provenance": bundle.provenance,
         "attribution": bundle.attribution,
-    }
+    } | ({} if bundle.annotation is None else {"states": bundle.annotation.machine.states})
     return tensor_file.seal(arrays, about)
 
 
@@ -186,6 +197,13 @@ def _table_arrays(name: str, table: PolicyTable) -> dict[str, NDArray]:
 def _about_table(table: PolicyTable) -> _Table:
     learned_from = None if table.player is None else list(table.player.learned_from)
     return _Table(table.task, table.residual, table.sweeps, table.converged, learned_from)
+
+
+def _annotation_arrays(annotation: Annotation) -> dict[str, NDArray]:
+    arrays: dict[str, NDArray] = {"segments.first": annotation.first, "segments.state": annotation.state}
+    for number, hops in enumerate(annotation.ways):
+        arrays |= {f"ways.{number}.edge": hops.edge, f"ways.{number}.delay": hops.delay}
+    return arrays
 
 
 def _take(arrays: Mapping[str, NDArray], name: str, kinds: DTypeLike | tuple, where: str) -> NDArray:
@@ -234,4 +252,19 @@ def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGr
         behaviours=tuple(about.behaviours),
         where=f"{where}: graph",
         **graph,
+    )
+
+
+def _annotation(states: list[State], arrays: Mapping[str, NDArray], where: str) -> Annotation:
+    machine = StateMachine(tuple(states), f"{where}: machine")
+
+    def hops(number: int) -> NextHops:
+        return NextHops(*(_take(arrays, f"ways.{number}.{part}", np.int32, where) for part in ("edge", "delay")))
+
+    return Annotation(
+        machine,
+        _take(arrays, "segments.first", np.int32, where),
+        _take(arrays, "segments.state", np.int16, where),
+        tuple(map(hops, range(len(machine.at_once)))),
+        f"{where}: annotation",
     )

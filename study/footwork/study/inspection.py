@@ -14,6 +14,7 @@ from footwork.motion.table import PolicyTable
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
 from footwork.study.graph_report import graph_report
 from footwork.study.responsiveness import responsiveness
+from footwork.training.state_report import state_report
 
 
 def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
@@ -23,7 +24,7 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
     in it, and of those pairs whose frames it keeps, and the mean number of edges from a node. Seconds between captured
     frames are ``transition_time``; those to and between kinds of motion are given for labels and for behaviours
     (``graph_report``). ``tour`` is a best path through all labels. ``responsiveness`` is that of the "steering" table,
-    None without one.
+    None without one. A state-annotated graph has ``segments``, ``states`` and ``at_once`` too (``state_report``).
     """
     graph = bundle.graph
     sizes = {"graph": sum(getattr(graph, name).nbytes for name in ARRAYS)}
@@ -40,6 +41,7 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
         "joints": graph.skeleton.joint_count,
         "labels": _counts(graph.labels, graph.label),
         "behaviours": _counts(graph.behaviours, graph.behaviour),
+        **(state_report(bundle.annotation) if bundle.annotation else {}),
         **graph_report(graph, bundle.provenance.get("counts", {}).get("frames")),
         "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
         "responsiveness": _responsiveness(graph, steering) if steering else None,

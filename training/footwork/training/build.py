@@ -11,11 +11,13 @@ from footwork.motion.bundle import Bundle, sealed
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.mirror import mirrored
+from footwork.motion.state_machine import StateMachine
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.motion.trace import Trace
 from footwork.motion.window import LENGTH
-from footwork.training.graph_options import GraphOptions
+from footwork.training.annotated_recipe import build_annotated
+from footwork.training.graph_options import GraphOptions, require_machine
 from footwork.training.memory import peak_rss_mb
 from footwork.training.player_model import learned
 from footwork.training.recipe import Built
@@ -25,7 +27,6 @@ from footwork.training.threshold_choice import chosen
 from footwork.training.value_iteration import solve
 from footwork.training.well_connected_recipe import build_well_connected
 
-_RECIPES = {"standard": build_standard, "well-connected": build_well_connected}
 _AS_USUAL = GraphOptions()
 
 
@@ -53,6 +54,7 @@ def build_bundle(
     options: GraphOptions = _AS_USUAL,
     *,
     task: SteeringTask | None = None,
+    machine: StateMachine | None = None,
     players: Sequence[Trace] = (),
     progress: Progress | None = None,
 ) -> tuple[Bundle, dict[str, Any]]:
@@ -69,19 +71,22 @@ def build_bundle(
         motions: the clips and where they came from.
         options: the kind of graph and how it is built.
         task: what may be asked for; the default steering task where not given.
+        machine: the states of an annotated graph; for that kind alone.
         players: recordings that the policy learns from how commands change; without any it takes them never to.
         progress: told the stage and the share of it that is done.
 
     Raises:
         InputError: for no clips, a clip shorter than the metric's window or of another body or frame rate, more frames
-            than memory has room for, a graph that cannot be walked without end, or a policy that does not converge.
+            than memory has room for, a graph that cannot be walked without end, a machine that is missing, not needed
+            or does not fit the labels, or a policy that does not converge.
     """
     task = task or SteeringTask()
     stages = Stages(progress)
+    require_machine(options, machine is not None)
     _check(motions.clips)
     options, choice = chosen(motions.clips, options, stages)
     clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
-    built = _RECIPES[options.graph](clips, options, task, stages)
+    built = _built(clips, options, task, stages, machine)
     tables: dict[str, PolicyTable] = {}
     if _shown_behaviours(built.graph):
         with stages("policy") as tell:
@@ -89,7 +94,8 @@ def build_bundle(
             tables["steering"] = solve(built.graph, task, player=player, progress=tell).require_converged().compact
     extra = _mirrored_frames(motions, options)
     provenance = _provenance(motions, options, task, built, extra) | choice
-    bundle = sealed(Bundle(built.graph, tables, provenance, tuple(motions.attribution)))
+    whole = Bundle(built.graph, tables, provenance, tuple(motions.attribution), annotation=built.annotation)
+    bundle = sealed(whole)
     report = {
         "frames": sum(clip.frame_count for clip in motions.clips),
         **extra,
@@ -107,6 +113,16 @@ def build_bundle(
         "digest": bundle.digest,
     }
     return bundle, report
+
+
+def _built(
+    clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages, machine: StateMachine | None
+) -> Built:
+    """The graph by the recipe of its kind."""
+    if machine is not None:
+        return build_annotated(clips, options, task, stages, machine)
+    build = build_standard if options.graph == "standard" else build_well_connected
+    return build(clips, options, task, stages)
 
 
 def _check(clips: Sequence[Clip]) -> None:

@@ -1,5 +1,6 @@
 """What of a graph can be walked without end: its largest strongly connected part, and what it takes to have one."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -33,12 +34,14 @@ def largest_component(count: int, source: NDArray, target: NDArray) -> NDArray[n
     return np.flatnonzero(part == part[lowest])
 
 
-def restricted(graph: MotionGraph, nodes: NDArray[np.intp]) -> MotionGraph:
-    """The graph of some of its nodes (ascending) and the edges between them."""
+def restricted(graph: MotionGraph, nodes: NDArray[np.intp], links: NDArray[np.bool_] | None = None) -> MotionGraph:
+    """The graph of some of its nodes (ascending) and the edges between them, or of those only that ``links`` has."""
     number = np.full(graph.node_count, -1, dtype=np.int32)
     number[nodes] = np.arange(len(nodes))
     source, target = number[graph.source], number[graph.target]
     kept = (source >= 0) & (target >= 0)
+    if links is not None:
+        kept &= links
     arrays = {name: getattr(graph, name)[nodes] for name in NODE_ARRAYS}
     arrays |= {name: getattr(graph, name)[kept] for name in EDGE_ARRAYS if name != "target"}
     start = np.searchsorted(source[kept], np.arange(len(nodes) + 1)).astype(np.int32)
@@ -55,15 +58,23 @@ def connecting_threshold(ends: NDArray[np.intp], minima: Minima, share: float = 
         minima: all local minima, whatever they cost.
         share: of the frames, above 0.
     """
-    costs = np.unique(minima.cost)
-    low, high = 0, len(costs)
+
+    def holds(threshold: float) -> bool:
+        return _connected(ends, minima.under(threshold)) >= share * len(ends)
+
+    return least_threshold(np.nextafter(np.unique(minima.cost), np.inf), holds)
+
+
+def least_threshold(thresholds: NDArray[np.float64], holds: Callable[[float], bool]) -> float | None:
+    """The first of ascending thresholds at which something holds that goes on to hold from there; None without one."""
+    low, high = 0, len(thresholds)
     while low < high:
         middle = (low + high) // 2
-        if _connected(ends, minima.under(np.nextafter(costs[middle], np.inf))) >= share * len(ends):
+        if holds(float(thresholds[middle])):
             high = middle
         else:
             low = middle + 1
-    return float(np.nextafter(costs[low], np.inf)) if low < len(costs) else None
+    return float(thresholds[low]) if low < len(thresholds) else None
 
 
 def _connected(ends: NDArray[np.intp], minima: Minima) -> int:

@@ -7,7 +7,7 @@ from typing import Literal
 from footwork.errors import InputError
 from footwork.motion.metric_names import NAMES
 
-GRAPHS = ("standard", "well-connected")
+GRAPHS = ("standard", "well-connected", "annotated")
 PAIRINGS = ("plain", "ratio", "neighbours")
 ORDERS = ("frames", "reverse", "random")
 MAX_WEIGHTS = 99
@@ -22,7 +22,7 @@ class GraphOptions:
     """How a motion graph is built.
 
     Args:
-        graph: The kind of motion graph: standard or well-connected.
+        graph: The kind of motion graph: standard, well-connected, or annotated with the states of a machine.
         threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm): a number, or auto
             for the knee of the captured frames' costs.
         metric: What tells how unlike two frames are: uniform, dynamics, torso or joints.
@@ -72,7 +72,8 @@ class GraphOptions:
         usual = {field.name: field.default for field in fields(self)}
         given = [f"--{name}" for name in _WELL_CONNECTED if getattr(self, name) != usual[name]]
         if given:
-            problem = f"a {self.graph} graph has no such option, expected it with --graph well-connected"
+            kind = "an annotated" if self.graph == "annotated" else f"a {self.graph}"
+            problem = f"{kind} graph has no such option, expected it with --graph well-connected"
             raise InputError(problem, ", ".join(given))
 
     @property
@@ -88,6 +89,15 @@ class GraphOptions:
         """Those that matter for this kind of graph, by name."""
         unused = () if self.graph == "well-connected" else _WELL_CONNECTED
         return {name: value for name, value in asdict(self).items() if name not in unused}
+
+
+def require_machine(options: GraphOptions, given: bool) -> None:
+    """Raise InputError unless a state machine is given just where the kind of graph has one."""
+    if given == (options.graph == "annotated"):
+        return
+    if given:
+        raise InputError(f"a {options.graph} graph has no states, expected it with --graph annotated", "--machine")
+    raise InputError("an annotated graph needs a state machine (TOML), such as examples/fighting.toml", "--machine")
 
 
 def _require_name(name: str, known: tuple[str, ...], option: str) -> None:

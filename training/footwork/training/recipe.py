@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from footwork.motion.annotation import Annotation
 from footwork.motion.graph import MotionGraph
 
 
@@ -17,6 +18,7 @@ class Built:
         nodes: of the whole graph.
         edges: of the whole graph.
         measured: JSON-able: what else is worth knowing of how it was built.
+        annotation: of a state-annotated graph, None for any other.
     """
 
     graph: MotionGraph
@@ -24,6 +26,7 @@ class Built:
     nodes: int
     edges: int
     measured: Mapping[str, Any] = field(default_factory=dict)
+    annotation: Annotation | None = None
 
     @property
     def connected_frames(self) -> int:

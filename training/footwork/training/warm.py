@@ -10,13 +10,16 @@ from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
+from footwork.motion.state_machine import State, StateMachine
 from footwork.motion.task import SteeringTask
+from footwork.training.annotated_recipe import annotated
 from footwork.training.graph_options import GraphOptions
 from footwork.training.stages import Stages
 from footwork.training.standard_recipe import build_standard
 from footwork.training.value_iteration import solve
 from footwork.training.well_connected_recipe import build_well_connected
 
+_ON = StateMachine((State("on", ("walk",), ("on",), ("on",)),))
 _FRAMES = 48
 _STEP = 12
 
@@ -41,6 +44,8 @@ def warm(options: GraphOptions) -> None:
     small = replace(options, graph="well-connected", threshold=1.0, weights=1)
     built = build_standard(clips, small, task, Stages())
     solve(built.graph, task)
+    if options.graph == "annotated":
+        annotated(built.graph, _ON, np.zeros(built.graph.node_count, dtype=np.int16))
     if options.graph == "well-connected":
         with suppress(InputError):
             build_well_connected(clips, small, task, Stages())
