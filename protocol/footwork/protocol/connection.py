@@ -71,6 +71,7 @@ class Connection:
         self.role = role
         self.peer = Role.SERVER if role is Role.CLIENT else Role.CLIENT
         self.state = State.NEW
+        self._outgoing, self._incoming = TRANSITIONS[self.role], TRANSITIONS[self.peer]
         self._decode = decode_from_client if role is Role.SERVER else decode_from_server
         self._encode = encode if role is Role.SERVER else encode_checked
 
@@ -80,7 +81,7 @@ class Connection:
         Raises:
             LocalError: for a message that may not be sent in this state, or with fields out of bounds.
         """
-        following = TRANSITIONS[self.role][self.state].get(type(message))
+        following = self._outgoing[self.state].get(type(message))
         if following is None:
             raise LocalError(self._misplaced(self.role, message))
         data = self._encode(message)
@@ -94,7 +95,7 @@ class Connection:
             PeerError: for bytes that are no message, or a message that may not come in this state. The state stays.
         """
         message = self._decode(data)
-        following = TRANSITIONS[self.peer][self.state].get(type(message))
+        following = self._incoming[self.state].get(type(message))
         if following is None:
             raise PeerError(STATE, self._misplaced(self.peer, message), getattr(message, "sequence", 0))
         self.state = following
