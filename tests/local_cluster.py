@@ -9,12 +9,17 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 
 HERE = Path(__file__).parent
+needs_dask = pytest.mark.skipif(
+    find_spec("distributed") is None, reason="Dask is not installed (pip install 'footwork[scale]')"
+)
 PATIENCE = 60.0  # seconds in which something has to happen on a busy machine
 
 

@@ -24,13 +24,9 @@ from local_cluster import (
     environment,
     flags,
     local_cluster,
+    needs_dask,
     refusing,
     scaled,
-)
-
-needs_dask = pytest.mark.skipif(
-    subprocess.run([sys.executable, "-c", "import distributed"], capture_output=True, check=False).returncode != 0,
-    reason="Dask is not installed (pip install 'footwork[scale]')",
 )
 
 

@@ -17,7 +17,7 @@ from motion_samples import SampleMotions, sample_clip, sample_clips
 
 
 def built(clips: list[Clip], **options: Any) -> tuple[Bundle, dict[str, Any]]:
-    chosen: dict[str, Any] = {"graph": "well-connected", "weights": 2} | options
+    chosen: dict[str, Any] = {"graph": "well-connected", "weights": 1} | options
     return build_bundle(SampleMotions(clips), GraphOptions(**chosen))
 
 

@@ -1,21 +1,14 @@
 """The real search for transitions finds the same on two workers, one of which is killed on the way, as in process."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 from footwork.training.backend import backend
 from footwork.training.interpolation import interpolated
 from footwork.training.transition_search import search
-from local_cluster import LocalCluster, local_cluster
+from local_cluster import LocalCluster, local_cluster, needs_dask
 from motion_samples import sample_clips
 
-pytestmark = pytest.mark.skipif(
-    subprocess.run([sys.executable, "-c", "import distributed"], capture_output=True, check=False).returncode != 0,
-    reason="Dask is not installed (pip install 'footwork[scale]')",
-)
 THRESHOLD = 0.5
 
 
@@ -29,6 +22,7 @@ def kill_a_worker(cluster: LocalCluster) -> None:
     cluster.processes[1].wait()
 
 
+@needs_dask
 @pytest.mark.timeout(400)  # kernels may have to be compiled first
 def test_the_transitions_are_the_same_though_a_worker_is_killed(chains, tmp_path):
     here = search(chains, THRESHOLD)

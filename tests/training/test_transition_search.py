@@ -56,7 +56,7 @@ def assert_same(found, expected):
     np.testing.assert_allclose(found.cost, expected.cost, rtol=0.0, atol=1e-9)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(st.integers(0, 10_000), st.integers(1, 4), st.integers(0, 12), st.sampled_from([0.05, 0.5, 4.0, np.inf]))
 def test_transitions_are_those_of_comparing_every_pair(seed, clips, others, threshold):
     chains = wandering_chains(seed, clips, others)
@@ -66,7 +66,7 @@ def test_transitions_are_those_of_comparing_every_pair(seed, clips, others, thre
     assert_same(weighted, transitions_by_brute_force(chains, threshold, metric))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(st.integers(0, 10_000), st.integers(1, 4), st.integers(0, 12), st.sampled_from([0.05, 0.5, 4.0, np.inf]))
 def test_weights_of_each_pair_give_what_comparing_every_pair_gives(seed, clips, others, threshold):
     rng, chains = np.random.default_rng(seed), wandering_chains(seed, clips, others)
