@@ -11,6 +11,7 @@ from footwork.cli.build import build
 from footwork.cli.demo import demo
 from footwork.cli.inspect import inspect
 from footwork.cli.keys import keys
+from footwork.cli.replay import replay
 from footwork.cli.reproduce import reproduce
 from footwork.cli.score import score
 from footwork.cli.serve import serve
@@ -31,6 +32,7 @@ app.command(build)
 app.command(inspect)
 app.command(serve)
 app.command(keys)
+app.command(replay)
 app.command(score)
 app.command(reproduce)
 

@@ -31,6 +31,7 @@ def serve(
     inertialise: bool = True,
     lock_step: Annotated[bool, Off] = False,
     spectate: str | None = None,
+    record: Path | None = None,
     curve: Path | None = None,
     metrics: str | None = None,
     watch: Annotated[bool, Off] = False,
@@ -53,6 +54,7 @@ def serve(
         inertialise: Smooth transitions; --no-inertialise shows the bare jumps.
         lock_step: Make ticks when the clients ask for them, not by a clock.
         spectate: Where spectators may watch all characters, such as tcp://127.0.0.1:5556.
+        record: Record what takes effect, for `footwork replay`, into a new file in this folder.
         curve: Let in only clients whose keys are allowed in this folder of `footwork keys`.
         metrics: Answer /health and /metrics (Prometheus) over HTTP here, such as 127.0.0.1:9095.
         watch: Read the bundle again whenever its file is replaced, as at SIGHUP.
@@ -83,6 +85,7 @@ def serve(
             lockstep=lock_step,
             spectate=spectate,
             keys=None if curve is None else KeyFolder(curve),
+            record=record,
         )
         if metrics is not None:
             held.enter_context(Monitoring(server, metrics))

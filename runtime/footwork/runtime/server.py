@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import zmq
@@ -28,6 +29,7 @@ from footwork.runtime.histogram import Histogram
 from footwork.runtime.host import Host
 from footwork.runtime.key_folder import KeyFolder
 from footwork.runtime.limits import Limits
+from footwork.runtime.recordings import Recordings
 from footwork.runtime.ring import Ring
 from footwork.runtime.router import DEFAULT_BIND, Router, Sent
 from footwork.runtime.simulation import Simulation
@@ -62,9 +64,11 @@ class Server:
         lockstep: make no tick by a clock, but each once all clients with characters have asked for it.
         spectate: where spectators may watch all characters, nowhere unless given; told by ``gallery_address``.
         keys: let in only clients whose CURVE keys are in this folder; without it whoever reaches the address.
+        record: a folder that what takes effect is recorded in, nowhere unless given.
 
     Raises:
-        InputError: for another rate, an address that cannot be bound or a bundle without a steering table.
+        InputError: for another rate, an address that cannot be bound, a folder that cannot be written to or a bundle
+            without a steering table.
         LocalError: for a bundle that the wire cannot hold.
     """
 
@@ -79,6 +83,7 @@ class Server:
         lockstep: bool = False,
         spectate: str | None = None,
         keys: KeyFolder | None = None,
+        record: Path | None = None,
     ) -> None:
         if rate not in RATES:
             raise InputError(f"{rate} frames a second, expected one of {RATES}", "rate")
@@ -93,6 +98,8 @@ class Server:
         self.pulse = now_ns()
         self.simulate = partial(Simulation, capacity=limits.characters, inertialise=inertialise)
         self._host = Host(self.simulate(bundle), rate, limits, lockstep=lockstep)
+        self._recordings = Recordings(record, rate)
+        self._recordings.begin(self.simulation)
         # Half a second of one character's poses, but no fewer than two frames of all that a session may have.
         queue = max(rate // 2, 2 * limits.session_characters)
         self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
@@ -155,6 +162,8 @@ class Server:
         if self._gallery is not None:
             self._gallery.close()
         self._router.close(linger=_FAREWELL)
+        self.simulation.end_recording()
+        self._recordings.wait()
         self._ended.set()
 
     def stop(self) -> None:
@@ -179,6 +188,8 @@ class Server:
             "denied": self._router.denied,
             "skipped_frames": self._clock.skipped,
             "reloads": self.reloads,
+            "recordings": self._recordings.names,
+            "recording_errors": self._recordings.errors,
             "bytes_in": self._router.bytes_in,
             "bytes_out": self._router.bytes_out,
         }
@@ -314,7 +325,11 @@ class Server:
     def _hand_over(self) -> None:
         """Let the bundle that waits to be served take over."""
         if self._succession is not None:
+            former, latter = self.simulation, self._succession[0].latter
+            latter.tick = former.tick
+            self._recordings.go_on(latter)
             self._host.succeed(*self._succession)
+            former.end_recording()
             self._succession = None
             self.reloads += 1
             log.info("bundle %s is served from now on", self.simulation.bundle.digest[:12])

@@ -236,6 +236,7 @@ class Simulation:
     def record(self, recorder: Recorder) -> None:
         """Tell a recorder, from when nobody is here yet, what takes effect until ``end_recording``."""
         self._recorder = recorder
+        self._record_state(recorder)
 
     def end_recording(self) -> None:
         """End the recording, if there is one, after the tick last made."""

@@ -1,0 +1,83 @@
+"""footwork serve --record and footwork replay, with a real server and a real client."""
+
+import json
+from pathlib import Path
+from threading import Thread
+
+import msgspec
+import pytest
+
+from footwork.cli.main import main
+from footwork.motion.bundle import write_bundle
+from footwork.protocol.client import Client
+from footwork.runtime import recording as r
+from footwork.runtime.server import Server
+from toy_bundle import toy_bundle
+
+BUNDLE = toy_bundle()
+
+
+def served(folder: Path) -> Path:
+    """The recording of a server with one client that spawns, walks and leaves."""
+    server = Server(BUNDLE, bind="tcp://127.0.0.1:0", record=folder)
+    thread = Thread(target=server.run)
+    thread.start()
+    with Client(server.address) as client:
+        client.spawn(0, x=1.0)
+        for tick in range(10):
+            sent = client.command(0, heading=0.3 * tick, behaviour="walk")
+            next(pose for pose in client.poses() if pose.acknowledged >= sent)
+    server.stop()
+    thread.join()
+    (name,) = server.summary()["recordings"]
+    return Path(name)
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    folder = tmp_path_factory.mktemp("recorded")
+    write_bundle(folder / "toy.footwork", BUNDLE)
+    return served(folder), folder / "toy.footwork"
+
+
+def test_what_a_server_recorded_is_replayed_and_agrees(recorded, capsys: pytest.CaptureFixture):
+    path, bundle = recorded
+    seen = []
+    for speed in ("max", "20"):
+        assert main(["replay", str(path), "--bundle", str(bundle), "--verify", "--json", "--speed", speed]) == 0
+        seen.append(json.loads(capsys.readouterr().out))
+    assert seen[0]["poses"] == seen[1]["poses"]
+    assert (seen[0]["characters"], seen[0]["departed_at"], seen[0]["whole"]) == (1, None, True)
+    assert seen[0]["commands"] >= 10
+
+
+def test_a_replay_that_departs_has_exit_status_1_and_names_the_tick(recorded, tmp_path: Path, capsys):
+    path, bundle = recorded
+    read = r.read_recording(path)
+    moved = (
+        msgspec.structs.replace(record, x=record.x + 0.5) if isinstance(record, r.Spawned) else record
+        for record in read.records
+        if not isinstance(record, r.Removed)
+    )
+    other = tmp_path / "other.footrec"
+    other.write_bytes(r.MAGIC + r.framed(read.header) + b"".join(map(r.framed, moved)))
+    assert main(["replay", str(other), "--bundle", str(bundle), "--verify", "--json"]) == 1
+    out = capsys.readouterr()
+    assert json.loads(out.out)["departed_at"] > 0
+    assert "departs after tick 0, by tick" in out.err
+
+
+def test_wrong_files_and_options_are_one_line(recorded, tmp_path: Path, capsys):
+    path, bundle = recorded
+    empty = tmp_path / "empty.footrec"
+    empty.touch()
+    for arguments in (
+        [str(empty), "--bundle", str(bundle)],
+        [str(bundle), "--bundle", str(bundle)],
+        [str(path), "--bundle", str(path)],
+        [str(tmp_path / "none"), "--bundle", str(bundle)],
+        [str(path), "--bundle", str(bundle), "--speed", "-1"],
+    ):
+        assert main(["replay", *arguments]) == 2
+        assert len(capsys.readouterr().err.splitlines()) == 1
+    assert main(["serve", str(bundle), "--record", str(tmp_path / "none")]) == 2

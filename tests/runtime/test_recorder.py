@@ -1,0 +1,132 @@
+"""Recording never harms what is recorded: full disks, taken names and sudden ends."""
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from footwork.errors import InputError
+from footwork.runtime.recorder import Recorder, new_recording
+from footwork.runtime.recording import SUFFIX, Commanded, State, read_recording
+from footwork.runtime.replay import Replay, start_recording
+from footwork.runtime.simulation import Simulation
+from toy_bundle import toy_bundle
+
+BUNDLE = toy_bundle()
+HERE = Path(__file__).parent
+SOON = "from footwork.runtime import recorder; recorder.FLUSH_SECONDS = 0.2;"
+ENVIRONMENT = {"PYTHONPATH": f"{HERE}:{HERE.parent}", "PATH": ""}
+
+
+def played(simulation: Simulation, ticks: int) -> None:
+    """One character that is told something else every few ticks."""
+    slot = simulation.spawn(0.0, 0.0, 0.1, "walk")
+    for tick in range(ticks):
+        if tick % 7 == 0:
+            simulation.give(slot, simulation.vocabulary.outright(0.1 * tick, ("walk", "stop")[tick // 7 % 2]))
+        simulation.step()
+
+
+def test_a_recording_never_takes_the_place_of_another(tmp_path: Path):
+    first = new_recording(tmp_path)
+    assert first.suffix == SUFFIX
+    first.write_bytes(b"kept")
+    second = new_recording(tmp_path)
+    assert second != first
+    with pytest.raises(InputError, match="exists"):
+        start_recording(Simulation(BUNDLE, 1), first, rate=60)
+    with pytest.raises(InputError, match="cannot be written"):
+        start_recording(Simulation(BUNDLE, 1), tmp_path / "none" / "a.footrec", rate=60)
+    assert first.read_bytes() == b"kept"
+
+
+def killed_while_recording(path: Path) -> None:
+    """For a process of its own: record until killed, and say up to which tick all is on the disk."""
+    simulation = Simulation(BUNDLE, 1)
+    recorder = start_recording(simulation, path, rate=60)
+    told, slot = 0, simulation.spawn(0.0, 0.0, 0.0, "walk")
+    while True:
+        simulation.give(slot, simulation.vocabulary.outright(0.001 * simulation.tick, "walk"))
+        simulation.step()
+        time.sleep(0.001)
+        if recorder.recorded > told:
+            told = recorder.recorded
+            print(told, flush=True)
+
+
+def test_a_recording_of_a_killed_process_holds_all_that_was_told_to_be_on_the_disk(tmp_path: Path):
+    path = tmp_path / "killed.footrec"
+    script = f"{SOON}import pathlib, test_recorder as t; t.killed_while_recording(pathlib.Path({str(path)!r}))"
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, env=ENVIRONMENT) as process:
+        assert process.stdout is not None
+        told = [int(process.stdout.readline()) for _ in range(2)]
+        process.send_signal(signal.SIGKILL)
+    recording = read_recording(path)
+    assert not recording.whole
+    assert recording.last >= told[-1] > told[0] > 0
+    outcome = Replay(recording, BUNDLE).run()
+    assert outcome.departed is None
+    assert outcome.ticks == recording.last
+
+
+def test_a_recording_cut_in_the_middle_of_a_record_replays_up_to_there(tmp_path: Path):
+    simulation, path = Simulation(BUNDLE, 1), tmp_path / "a.footrec"
+    recorder = start_recording(simulation, path, rate=30)
+    played(simulation, 200)
+    simulation.end_recording()
+    recorder.wait()
+    os.truncate(path, path.stat().st_size - 60)
+    recording = read_recording(path)
+    assert not recording.whole
+    assert Replay(recording, BUNDLE).run().departed is None
+
+
+def full_disk(path: Path) -> None:
+    """For a process of its own: go on although the recording may take no more than 4 KB."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+    simulation = Simulation(BUNDLE, 1)
+    recorder = start_recording(simulation, path, rate=60)
+    slot = simulation.spawn(0.0, 0.0, 0.0, "walk")
+    while recorder.recording:
+        simulation.give(slot, simulation.vocabulary.outright(0.001 * simulation.tick, "walk"))
+        simulation.step()
+        time.sleep(0.0005)
+    for _ in range(100):
+        simulation.step()
+    simulation.end_recording()
+    recorder.wait()
+    print(recorder.errors, recorder.recorded, simulation.tick)
+
+
+def test_a_full_disk_ends_the_recording_and_nothing_else(tmp_path: Path):
+    path = tmp_path / "full.footrec"
+    script = f"{SOON}import pathlib, test_recorder as t; t.full_disk(pathlib.Path({str(path)!r}))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, env=ENVIRONMENT)
+    errors, recorded, tick = map(int, done.stdout.split())
+    assert (errors, tick > recorded + 100) == (1, True)
+    assert "File too large" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    recording = read_recording(path)
+    assert path.stat().st_size <= 4096
+    assert recording.last >= recorded
+    assert Replay(recording, BUNDLE).run().departed is None
+
+
+def test_a_disk_that_is_too_slow_ends_the_recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    simulation, path = Simulation(BUNDLE, 1), tmp_path / "slow.footrec"
+    monkeypatch.setattr("footwork.runtime.recorder.MOST_WAITING", 1000)
+    recorder: Recorder = start_recording(simulation, path, rate=60)
+    slot = simulation.spawn(0.0, 0.0, 0.0, "walk")
+    for _ in range(2000):
+        simulation.give(slot, simulation.vocabulary.outright(0.0, "walk"))
+    assert not recorder.recording
+    assert recorder.errors == 1
+    simulation.end_recording()
+    recorder.wait()
+    assert all(isinstance(record, Commanded | State) for record in read_recording(path).records[1:])
