@@ -68,6 +68,11 @@ def test_a_mistake_is_found_by_the_check_of_that_rule():
     assert set(found) == {"a_ping_is_answered_with_its_nonce", "a_flood_is_cut_off"}
 
 
+def test_an_address_that_is_none_is_told_in_a_line():
+    with pytest.raises(SystemExit, match="address 'nonsense'.*expected such as tcp://"):
+        main("nonsense")
+
+
 def test_a_line_over_a_socket_hangs_up():
     line = SocketLine("tcp://127.0.0.1:9")
     assert line.receive(0.01) is None

@@ -9,11 +9,11 @@ from typing import Self, TypeVar
 import zmq
 
 from footwork.protocol import messages as m
-from footwork.protocol.address import is_ipv6, port_fits
+from footwork.protocol.address import connect
 from footwork.protocol.codec import SERVER_MESSAGE_BYTES
 from footwork.protocol.connection import Connection, Role, State
 from footwork.protocol.curve import CurveKeys
-from footwork.protocol.errors import LOCK_STEP, LocalError, RefusedError
+from footwork.protocol.errors import LOCK_STEP, RefusedError
 
 DEFAULT_ADDRESS = "tcp://127.0.0.1:5555"
 _KEPT = 4096
@@ -59,7 +59,7 @@ class Client:
         if curve is not None:
             curve.put_on(self._socket)
         try:
-            self._connect(address)
+            connect(self._socket, address, DEFAULT_ADDRESS)
             hello = m.Hello(version=m.PROTOCOL_VERSION, client=name, events=events, resume=resume)
             self.welcome = self._greet(hello, timeout)
         except BaseException:
@@ -67,15 +67,6 @@ class Client:
             raise
         self._sequence = self.welcome.sequence
         self._ping_every = self.welcome.idle_seconds / 3.0 or float("inf")
-
-    def _connect(self, address: str) -> None:
-        if not port_fits(address):
-            raise LocalError(f"address {address!r}: a port is at most 65535")
-        self._socket.set(zmq.IPV6, is_ipv6(address))
-        try:
-            self._socket.connect(address)
-        except zmq.ZMQError as error:
-            raise LocalError(f"address {address!r}: {error.strerror}, expected such as {DEFAULT_ADDRESS}") from None
 
     def _greet(self, hello: m.Hello, timeout: float) -> m.Welcome:
         self._send(hello)

@@ -7,10 +7,10 @@ from typing import Self
 import zmq
 
 from footwork.protocol import messages as m
-from footwork.protocol.address import is_ipv6, port_fits
+from footwork.protocol.address import connect
 from footwork.protocol.codec import SERVER_MESSAGE_BYTES, decode_from_server
 from footwork.protocol.curve import CurveKeys
-from footwork.protocol.errors import MALFORMED, LocalError, PeerError, RefusedError
+from footwork.protocol.errors import MALFORMED, PeerError, RefusedError
 
 SCENE_TOPIC = b"scene"
 POSES_TOPIC = b"pose/"
@@ -55,7 +55,7 @@ class Spectator:
         if curve is not None:
             curve.put_on(self._socket)
         try:
-            self._connect(address)
+            connect(self._socket, address, DEFAULT_GALLERY)
             self._socket.subscribe(SCENE_TOPIC)
             scene = self.receive(timeout)
             if not isinstance(scene, m.Welcome):
@@ -66,15 +66,6 @@ class Spectator:
         self.scene = scene
         for topic in [POSES_TOPIC] if characters is None else map(pose_topic, characters):
             self._socket.subscribe(topic)
-
-    def _connect(self, address: str) -> None:
-        if not port_fits(address):
-            raise LocalError(f"address {address!r}: a port is at most 65535")
-        self._socket.set(zmq.IPV6, is_ipv6(address))
-        try:
-            self._socket.connect(address)
-        except zmq.ZMQError as error:
-            raise LocalError(f"address {address!r}: {error.strerror}, expected such as {DEFAULT_GALLERY}") from None
 
     def receive(self, timeout: float) -> m.Welcome | m.Pose | None:
         """The next pose or scene, None where none comes in ``timeout`` seconds.

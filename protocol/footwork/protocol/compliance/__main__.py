@@ -6,11 +6,15 @@ from functools import partial
 from footwork.protocol.client import DEFAULT_ADDRESS
 from footwork.protocol.compliance import run
 from footwork.protocol.compliance.peer import SocketLine
+from footwork.protocol.errors import LocalError
 
 
 def main(address: str = DEFAULT_ADDRESS) -> int:
     """Check the server at an address; how many checks it failed."""
-    outcomes = run(partial(SocketLine, address))
+    try:
+        outcomes = run(partial(SocketLine, address))
+    except LocalError as error:
+        sys.exit(f"compliance: {error}")
     for outcome in outcomes:
         print(f"FAIL  {outcome.name}: {outcome.problem}" if outcome.problem else f"pass  {outcome.name}")
     failed = sum(bool(outcome.problem) for outcome in outcomes)

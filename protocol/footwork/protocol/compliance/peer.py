@@ -8,9 +8,10 @@ from typing import Protocol, TypeVar
 import zmq
 
 from footwork.protocol import messages as m
-from footwork.protocol.address import is_ipv6
+from footwork.protocol.address import connect
+from footwork.protocol.client import DEFAULT_ADDRESS
 from footwork.protocol.codec import decode_from_server, encode
-from footwork.protocol.errors import PeerError
+from footwork.protocol.errors import LocalError, PeerError
 
 PATIENCE = 5.0
 """How long an answer may take, seconds."""
@@ -46,12 +47,18 @@ class SocketLine:
 
     Args:
         address: of the server.
+
+    Raises:
+        LocalError: for an address that is none.
     """
 
     def __init__(self, address: str) -> None:
         self._socket = zmq.Context.instance().socket(zmq.DEALER)
-        self._socket.set(zmq.IPV6, is_ipv6(address))
-        self._socket.connect(address)
+        try:
+            connect(self._socket, address, DEFAULT_ADDRESS)
+        except LocalError:
+            self.close()
+            raise
 
     def send(self, data: bytes) -> None:
         """Send a message."""
