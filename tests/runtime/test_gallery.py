@@ -55,6 +55,22 @@ def test_in_lock_step_the_last_frame_of_every_tick_is_published():
             Spectator(server.gallery_address or "", timeout=0.05)
 
 
+def test_who_piles_up_subscriptions_is_cut_and_the_others_watch_on(server):
+    with Client(server.address) as client, zmq.Context.instance().socket(zmq.SUB) as greedy:
+        client.spawn(0)
+        with Spectator(server.gallery_address) as spectator:
+            greedy.set(zmq.RECONNECT_IVL, -1)
+            greedy.connect(server.gallery_address)
+            for number in range(4000):
+                greedy.subscribe(f"a topic of nobody's {number}")
+            poses = spectator.poses()
+            first = next(poses)
+            while not server._gallery._connections.cut and next(poses).tick < first.tick + 150:
+                pass
+            assert server._gallery._connections.cut == 1
+            assert next(poses).character == 0
+
+
 def test_topics_are_no_beginnings_of_others():
     topics = [pose_topic(number) for number in (0, 1, 10, 100, 65535)]
     assert not [(a, b) for a in topics for b in topics if a != b and b.startswith(a)]

@@ -59,14 +59,16 @@ class Connections:
     Args:
         watched: the socket, before it is bound.
         most: how many connections there may be. For another, the oldest is cut that has not said anything yet.
+        silent: who is connected for so many seconds without a whole message is cut; infinite where none is expected.
 
     Attributes:
         cut: how many were cut.
     """
 
-    def __init__(self, watched: zmq.Socket, most: int) -> None:
+    def __init__(self, watched: zmq.Socket, most: int, silent: float = SILENT_SECONDS) -> None:
         self._watched = watched
         self._most = most
+        self._silent = silent
         self.events = watched.get_monitor_socket(zmq.EVENT_ACCEPTED | zmq.EVENT_DISCONNECTED)
         self._by_descriptor: dict[int, Connection] = {}
         self._by_peer: dict[bytes, Connection] = {}
@@ -145,8 +147,8 @@ class Connections:
         if connection.heard:
             connection.heard, connection.received = False, None
             return ""
-        if not connection.peer and now - connection.began > SILENT_SECONDS * SECOND:
-            return f"no message in {SILENT_SECONDS:g} s"
+        if not connection.peer and now - connection.began > self._silent * SECOND:
+            return f"no message in {self._silent:g} s"
         received = _received(connection.descriptor)
         if connection.received is None:
             connection.received = received if connection.peer else 0

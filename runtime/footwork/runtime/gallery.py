@@ -1,6 +1,7 @@
 """Where spectators watch: an XPUB socket with every character's poses, for whoever subscribes, and nothing to say."""
 
 import logging
+import math
 
 import numpy as np
 import zmq
@@ -11,6 +12,7 @@ from footwork.protocol.address import is_ipv6, port_fits
 from footwork.protocol.codec import encode
 from footwork.protocol.messages import TICK_RATE, Welcome
 from footwork.protocol.spectator import SCENE_TOPIC, pose_topic
+from footwork.runtime.connections import Connections
 from footwork.runtime.pose_message import pose_message
 from footwork.runtime.router import is_local
 from footwork.runtime.simulation import Simulation
@@ -28,31 +30,43 @@ class Gallery:
         socket: the XPUB socket, with keys asked for or not; closed with this.
         bind: where to listen; port 0 or ``*`` takes any free one, told by ``address``.
         queue: how many messages may wait for a spectator before more are dropped.
+        most: how many spectators there may be.
 
     Raises:
         InputError: for an address that cannot be bound.
     """
 
-    def __init__(self, socket: zmq.Socket, bind: str, queue: int) -> None:
+    def __init__(self, socket: zmq.Socket, bind: str, *, queue: int, most: int) -> None:
         self._socket = socket
         self._topics = 0
         self._scene_due = 0
         options = {zmq.SNDHWM: queue, zmq.MAXMSGSIZE: _TOPIC_BYTES, zmq.IPV6: is_ipv6(bind), zmq.TCP_KEEPALIVE: 1}
         for option, value in options.items():
             socket.set(option, value)
+        # Subscriptions are no messages: all of them that a spectator ever sent are bounded together.
+        self._connections = Connections(socket, most, silent=math.inf)
         try:
-            if not port_fits(bind):
-                raise InputError("cannot bind: a port is at most 65535", bind)
-            socket.bind(bind)
-        except zmq.ZMQError as error:
-            raise InputError(f"cannot bind: {error.strerror}, expected such as tcp://127.0.0.1:5556", bind) from None
-        self.address = socket.get_string(zmq.LAST_ENDPOINT)
+            self.address = self._bind(bind)
+        except InputError:
+            self.close()
+            raise
         if not is_local(self.address):
             log.warning("%s can be reached from other machines, and whoever may connect to it can watch", self.address)
+
+    def _bind(self, address: str) -> str:
+        if not port_fits(address):
+            raise InputError("cannot bind: a port is at most 65535", address)
+        try:
+            self._socket.bind(address)
+        except zmq.ZMQError as error:
+            problem = f"cannot bind: {error.strerror}, expected such as tcp://127.0.0.1:5556"
+            raise InputError(problem, address) from None
+        return self._socket.get_string(zmq.LAST_ENDPOINT)
 
     @property
     def watched(self) -> bool:
         """Whether anybody subscribes to anything."""
+        self._connections.look()
         for _ in range(_SUBSCRIPTIONS_AT_ONCE):
             try:
                 self._topics += 1 if self._socket.recv(zmq.NOBLOCK)[:1] == b"\x01" else -1
@@ -83,4 +97,5 @@ class Gallery:
 
     def close(self) -> None:
         """Close; what spectators have not got yet they miss."""
+        self._connections.close()
         self._socket.close(linger=0)

@@ -103,7 +103,7 @@ class Server:
         # Half a second of one character's poses, but no fewer than two frames of all that a session may have.
         queue = max(rate // 2, 2 * limits.session_characters)
         self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
-        self._gallery = None if spectate is None else self._open_gallery(spectate, 2 * limits.characters)
+        self._gallery = None if spectate is None else self._open_gallery(spectate, limits)
         self._delivery = Delivery(self._router.send, self._host.sessions.__contains__, limits.waiting_messages)
         self._clock = FrameClock(rate, now_ns())
         self._stopping = False
@@ -135,10 +135,10 @@ class Server:
         """Where spectators may watch, if anywhere."""
         return None if self._gallery is None else self._gallery.address
 
-    def _open_gallery(self, bind: str, queue: int) -> Gallery:
+    def _open_gallery(self, bind: str, limits: Limits) -> Gallery:
         socket = self._router.socket(zmq.XPUB)
         try:
-            return Gallery(socket, bind, queue)
+            return Gallery(socket, bind, queue=2 * limits.characters, most=limits.connections)
         except InputError:
             socket.close(linger=0)
             self._router.close()
