@@ -60,12 +60,13 @@ def test_what_is_restored_goes_on_to_the_same_bytes(seed, ticks, asked_each_tick
     simulation = Simulation(BUNDLE, 5, controller=controller)
     slots = [simulation.spawn(number, 0.0, number, "walk") for number in range(4)][1:3]
     go_on(simulation, slots, seed, ticks)
-    blob = simulation.snapshot(slots)
+    blob, before = simulation.snapshot(slots), shown(simulation, slots)
     expected = go_on(simulation, slots, seed + 1, 25)
     simulation.remove(0)
     simulation.spawn(9.0, 9.0, 1.0)
     simulation.spawn(8.0, 9.0, 1.0)
     assert simulation.restore(blob, slots) == ticks
+    assert shown(simulation, slots) == before
     assert go_on(simulation, slots, seed + 1, 25) == expected
     for slot in slots:
         simulation.remove(slot)

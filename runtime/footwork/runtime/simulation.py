@@ -53,8 +53,6 @@ class Simulation:
         tick: the tick last made, from 0.
         behaviours: what commands may ask for: those that some frame shows.
         vocabulary: reads commands.
-        behaviour: what each slot's character does in this tick, an index into ``behaviours`` or -1.  # (capacity,)
-        transition: whether its step to this tick left the captured order.  # (capacity,) bool
 
     Raises:
         InputError: for a bundle without a converged steering table or without a frame of any behaviour.
@@ -89,7 +87,7 @@ class Simulation:
         memory = self._controller.memory(capacity)
         self._snapshots = Snapshots(self.world, self._orders, memory, belongs_to)
         self._recorder: Recorder | None = None
-        self._note_actions()
+        self._noted = False
 
     def _numbering(self) -> NDArray[np.int32]:
         """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
@@ -176,7 +174,7 @@ class Simulation:
         poses = self._no_poses(ticks, frames, len(self.world.slots))
         self._ticks.make(self.world.slots, NOTHING, poses)
         self.tick += ticks
-        self._note_actions()
+        self._noted = False
         if self._recorder is not None and self.tick - self._recorder.state_tick >= STATE_TICKS:
             self._record_state(self._recorder)
         return poses
@@ -203,6 +201,7 @@ class Simulation:
                 cannot be; nothing has changed then.
         """
         tick = self._snapshots.put(blob, self._rows(slots))
+        self._noted = False
         self._record(Restored, tuple(map(int, slots)), blob)
         return tick
 
@@ -218,13 +217,13 @@ class Simulation:
             NoSuchCharacter: for a slot that holds none.
             UnknownBehaviour: for a command that the bundle cannot follow.
         """
-        given, rows = list(given), np.unique(self._rows(slots))
+        given, rows = list(given), self._rows(sorted(set(slots)))
         for _, slot, command in given:
             self.world.require(slot)
             self.vocabulary.require(command)
         schedule = schedule_of(given)
         self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
-        self._note_actions()
+        self._noted = False
         columns = (column.tolist() for column in schedule)
         if self._recorder is not None:
             self._record(Resimulated, tuple(map(int, slots)), ticks, tuple(zip(*columns, strict=True)))
@@ -263,22 +262,38 @@ class Simulation:
     def _no_poses(self, ticks: int, frames: int, count: int) -> NDArray[np.float32]:
         return np.empty((ticks, frames, count, 3 + 4 * self.world.graph.skeleton.joint_count), dtype=np.float32)
 
+    @property
+    def behaviour(self) -> NDArray[np.int32]:
+        """What each slot's character does in this tick, an index into ``behaviours`` or -1.  # (capacity,)"""
+        self._note_actions()
+        return self._behaviour
+
+    @property
+    def transition(self) -> NDArray[np.bool_]:
+        """Whether each one's step to this tick left the captured order.  # (capacity,)"""
+        self._note_actions()
+        return self._transition
+
     def _note_actions(self) -> None:
-        """What every character does in this tick; the same in all of its frames."""
+        """What every character does in this tick; the same in all of its frames, and looked up once it is asked for."""
+        if self._noted:
+            return
         graph, node = self.world.graph, self.world.node
-        self.behaviour = self._shown_as[graph.behaviour[node]]
+        self._behaviour = self._shown_as[graph.behaviour[node]]
         self._clip, self._source_frame = self._clip_of[node], self._frame_of[node]
-        self.transition = ~self.world.natural
+        self._transition = ~self.world.natural
+        self._noted = True
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
         root, rotations = self.world.show(fraction)
+        self._note_actions()
         return PoseFrames(
             root=root,
             rotations=rotations,
             facing=self.world.place[:, 2],
-            behaviour=self.behaviour,
+            behaviour=self._behaviour,
             clip=self._clip,
             source_frame=self._source_frame,
-            transition=self.transition,
+            transition=self._transition,
         )
