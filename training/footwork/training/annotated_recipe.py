@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,8 +32,8 @@ def build_annotated(
     """The state-annotated motion graph, in the stages of ``standard_recipe.whole_graph``, "states" and "ways".
 
     Measured are ``outside`` (frames whose label shows no state, by label), ``forbidden_edges`` (that the machine takes
-    out), ``steps`` (nodes that each step leaves, by state), ``wind_ups_and_recoveries`` (nodes whose state is not that
-    of their label) and what ``state_report`` tells.
+    out), ``steps`` (nodes that each step leaves, by state), ``as_published`` (those left where no wind-up or recovery
+    is handed over), ``wind_ups_and_recoveries`` (how many are) and what ``state_report`` tells.
 
     Raises:
         InputError: for a state that no frame shows, a label that none has, more frames than memory has room for, or a
@@ -55,7 +54,8 @@ def build_annotated(
     measured = {
         "outside": _outside(clips, machine),
         "forbidden_edges": int((~permitted(machine, state, links)).sum()),
-        "steps": [_step(machine, name, left) for name, left in parts.steps],
+        "steps": [{"step": name} | _counts(machine, left) for name, left in parts.steps],
+        "as_published": _counts(machine, lasting_parts(machine, state, links, hand_over=False).state),
         "wind_ups_and_recoveries": int((parts.state != state)[nodes].sum()),
         **state_report(annotation),
     }
@@ -87,9 +87,10 @@ def _outside(clips: Sequence[Clip], machine: StateMachine) -> dict[str, int]:
     return {label or "none": count for label, count in sorted(frames.items()) if label not in shown}
 
 
-def _step(machine: StateMachine, name: str, state: NDArray) -> dict[str, Any]:
+def _counts(machine: StateMachine, state: NDArray) -> dict[str, int]:
+    """Nodes by state."""
     counts = np.bincount(state[state != NO_STATE], minlength=len(machine.states)).tolist()
-    return {"step": name, "nodes": sum(counts), **dict(zip(machine.names, counts, strict=True))}
+    return {"nodes": sum(counts), **dict(zip(machine.names, counts, strict=True))}
 
 
 def _lost(machine: StateMachine, number: int, threshold: float, whole: WholeGraph, state: NDArray) -> InputError:
