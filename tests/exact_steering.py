@@ -7,7 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.graph import MotionGraph
+from footwork.motion.node_speed import node_speeds
 from footwork.motion.player_model import PlayerModel, persistent_player
+from footwork.motion.requests import holding_speed
 from footwork.motion.task import SteeringTask
 from footwork.motion.turn_warp import adjustment_cost, turn_warp, turned
 from motion_samples import ring_graph
@@ -35,18 +37,16 @@ def random_steering_graph(seed: int, nodes: int = 5, degree: int = 2) -> MotionG
 class ExactSteering:
     """All actions of a task on a graph: an edge and an extra turn each, as rewards and transition matrices.
 
-    States are (node, behaviour, heading bin), flat; W are values of commands expected at the next tick.
+    States are (node, request, heading bin), flat; W are values of commands expected at the next tick.
     """
 
     def __init__(self, graph: MotionGraph, task: SteeringTask, player: PlayerModel | None = None) -> None:
         self.graph, self.task = graph, task
-        self.shape = graph.node_count, len(task.behaviours), task.heading_bins
-        self.expect = np.kron(np.eye(self.shape[0]), (player or persistent_player(*self.shape_of_player)).matrix)
+        self.requests, self.speeds = task.requests, node_speeds(graph)
+        self.shape = graph.node_count, len(self.requests.behaviour), task.heading_bins
+        changes = holding_speed(player or persistent_player(task.behaviours, task.heading_bins), self.requests)
+        self.expect = np.kron(np.eye(self.shape[0]), changes.matrix)
         self.actions = [self._action(edge, turn) for edge, turn in self.choices()]
-
-    @property
-    def shape_of_player(self) -> tuple[tuple[str, ...], int]:
-        return self.task.behaviours, self.task.heading_bins
 
     def choices(self) -> list[tuple[int, float]]:
         """Every edge with every turn that the task allows on arriving at its target."""
@@ -54,30 +54,34 @@ class ExactSteering:
         return [(e, limit[e] * level) for e in range(self.graph.edge_count) for level in self.task.turn_levels]
 
     def rewards(self, edge: int, turn: float, wanted: int, heading: NDArray) -> NDArray:
-        """What a tick earns at headings before it."""
+        """What a tick earns under a request, at headings before it."""
         there = self.graph.target[edge]
         warp = turn_warp(self.graph)
         extra = float(adjustment_cost(warp.moments[there], turned(warp.pivot[there], turn)))
         qt = float(self.graph.smoothness[edge]) * math.exp(-extra / self.task.smoothness_sigma)
         after = heading - float(self.graph.displacement[edge, 2]) - turn
         shown = self.graph.behaviour[there]
-        qc = self.task.control_quality(after, np.full(len(after), wanted), np.full(len(after), shown))
+        behaviour, speed = (part[wanted] for part in self.requests)
+        qc = self.task.control_quality(after, np.full(len(after), behaviour), np.full(len(after), shown))
+        if not math.isnan(speed):
+            apart = (self.speeds[there] - speed) / (self.task.speed_sigma * max(speed, 1.0))
+            qc = qc * (1.0 - self.task.speed_weight * (1.0 - math.exp(-(apart**2) / 2.0)))
         return qc + self.task.weight * (qt - 1.0) if self.task.reward == "sum" else qc * qt
 
     def _action(self, edge: int, turn: float) -> tuple[int, NDArray, NDArray]:
-        """Its source, and rewards (B, H) and transitions (B, H, states) from there."""
-        _, behaviours, headings = self.shape
-        reward, follows = np.zeros((behaviours, headings)), np.zeros((behaviours, headings, *self.shape))
+        """Its source, and rewards (Q, H) and transitions (Q, H, states) from there."""
+        _, requests, headings = self.shape
+        reward, follows = np.zeros((requests, headings)), np.zeros((requests, headings, *self.shape))
         after = self.task.headings - float(self.graph.displacement[edge, 2]) - turn
         place = (after + math.pi) / (2 * math.pi) * headings
         low = np.floor(place).astype(int)
-        for wanted in range(behaviours):
+        for wanted in range(requests):
             reward[wanted] = self.rewards(edge, turn, wanted, self.task.headings)
             for h in range(headings):
                 row = follows[wanted, h, self.graph.target[edge], wanted]
                 row[low[h] % headings] += 1.0 - (place[h] - low[h])
                 row[(low[h] + 1) % headings] += place[h] - low[h]
-        return int(self.graph.source[edge]), reward, follows.reshape(behaviours, headings, -1)
+        return int(self.graph.source[edge]), reward, follows.reshape(requests, headings, -1)
 
     def onward(self) -> tuple[NDArray, NDArray]:
         """Rewards (states,) and transitions (states, states) of going on while a decision holds."""
@@ -90,14 +94,14 @@ class ExactSteering:
         return reward.ravel(), follows.reshape(reward.size, -1)
 
     def action_values(self, values: NDArray) -> NDArray:
-        """Of every action at every state, -inf where it is not to be had, by W.  # -> (actions, N, B, H)"""
+        """Of every action at every state, -inf where it is not to be had, by W.  # -> (actions, N, Q, H)"""
         worth = np.full((len(self.actions), *self.shape), -np.inf)
         for action, (node, reward, follows) in enumerate(self.actions):
             worth[action, node] = reward + self.task.discount * follows @ values.ravel()
         return worth
 
     def solved(self) -> NDArray:
-        """W of the best policy, by policy iteration with dense linear solves.  # (N, B, H)"""
+        """W of the best policy, by policy iteration with dense linear solves.  # (N, Q, H)"""
         size, discount = int(np.prod(self.shape)), self.task.discount
         values, choice = np.zeros(self.shape), np.full(self.shape, -1)
         while True:

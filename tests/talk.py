@@ -1,5 +1,6 @@
 """A host driven by hand, and short ways to say things to it."""
 
+from footwork.motion.bundle import Bundle
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server, encode
 from footwork.runtime.host import Host
@@ -15,8 +16,8 @@ SECOND = 1_000_000_000
 class Talk:
     """A host, and what it said to whom."""
 
-    def __init__(self, frame_rate: int = 30, *, lockstep: bool = False) -> None:
-        self.host = Host(Simulation(BUNDLE, LIMITS.characters), frame_rate, LIMITS, lockstep=lockstep)
+    def __init__(self, frame_rate: int = 30, *, lockstep: bool = False, bundle: Bundle = BUNDLE) -> None:
+        self.host = Host(Simulation(bundle, LIMITS.characters), frame_rate, LIMITS, lockstep=lockstep)
         self.frames = frame_rate // 30
         self.now = 0
 

@@ -13,13 +13,14 @@ SHOWN = ("stop", "walk", "jump")
 """What its frames show: it has no run."""
 
 
-def toy_bundle() -> Bundle:
+def toy_bundle(**task) -> Bundle:
     """Three clips, one of them stopping, one walking, one jumping, with a way from each to each every few frames."""
     clips = [wandering_clip(seed, FRAMES) for seed in range(len(SHOWN))]
     ways = [FRAMES * a + i for a in range(3) for i in (*range(2, FRAMES - 1, 4), FRAMES - 1)]
     jumps = [(node, FRAMES * clip) for node in ways for clip in range(3)]
     behaviour = np.repeat([BEHAVIOURS.index(name) for name in SHOWN], FRAMES)
     graph = graph_of(clips, jumps, behaviour)
-    values = np.zeros((graph.node_count, len(BEHAVIOURS), SteeringTask().heading_bins), dtype=np.float32)
-    table = PolicyTable(SteeringTask(behaviours=BEHAVIOURS), exact(values), residual=0.0, sweeps=1, converged=True)
+    asked = SteeringTask(behaviours=BEHAVIOURS, **task)
+    values = np.zeros((graph.node_count, len(asked.requests.behaviour), asked.heading_bins), dtype=np.float32)
+    table = PolicyTable(asked, exact(values), residual=0.0, sweeps=1, converged=True)
     return sealed(Bundle(graph, {"steering": table}, attribution=("toy motion, nobody's",)))

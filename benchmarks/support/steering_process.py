@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from footwork.motion.actions import Actions, Rules
+from footwork.motion.actions import Actions, rules_of
 from footwork.motion.task import SteeringTask
 
 
@@ -43,5 +43,6 @@ def _actions(rng: np.random.Generator, edges: np.ndarray, target: np.ndarray, qt
         level=task.turn_levels,
         turn_smoothness=np.exp(-4.0 * price[:, None] * np.sin(0.5 * turn) ** 2),
         headed=task.headed,
-        rules=Rules(task.heading_sigma, task.discount, task.additive, task.weight),
+        speed=np.zeros(nodes),
+        rules=rules_of(task),
     )

@@ -3,12 +3,13 @@ import math
 import numpy as np
 import pytest
 
-from footwork.controllers.command import NONE, Command, UnknownBehaviour, Vocabulary
+from footwork.controllers.command import NONE, Command, UnknownBehaviour, UnknownSpeed, Vocabulary
 from footwork.errors import InputError
 from footwork.motion.keys import behaviour_of_keys, heading_of_keys
 
 ALL = ("stop", "walk", "run", "jump")
 WORDS = Vocabulary(ALL, ALL)
+FAST_AND_SLOW = Vocabulary(ALL, ALL, {"run", "walk"})
 WALKER = Vocabulary(ALL, {"stop", "walk"})
 
 
@@ -65,6 +66,22 @@ def test_a_behaviour_that_no_frame_shows_is_refused_with_those_there_are():
     for ask in (lambda: WALKER.outright(0.0, "run"), lambda: WALKER.of_keys(0.0, 1, 0, False, "jump")):
         with pytest.raises(UnknownBehaviour, match=r"no behaviour '(run|jump)', it has stop, walk$"):
             ask()
+
+
+def test_a_speed_is_asked_of_what_takes_one():
+    assert FAST_AND_SLOW.outright(1.0, "walk", 1.1) == Command(1.0, 1, speed=1.1)
+    assert FAST_AND_SLOW.outright(1.0, "stop") == Command(1.0, 0)
+    for behaviour in ("stop", "jump"):
+        with pytest.raises(UnknownSpeed, match=f"'{behaviour}' takes no speed, of its behaviours walk, run do"):
+            FAST_AND_SLOW.outright(1.0, behaviour, 1.0)
+    with pytest.raises(UnknownSpeed, match="'walk' takes no speed, of its behaviours none do"):
+        WORDS.outright(1.0, "walk", 1.0)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -0.1])
+def test_speeds_are_finite_and_not_below_nothing(bad):
+    with pytest.raises(InputError, match="speed is"):
+        FAST_AND_SLOW.outright(0.0, "walk", bad)
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf])

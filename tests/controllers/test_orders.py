@@ -71,3 +71,22 @@ def test_characters_wait_apart_and_a_new_one_begins_afresh():
     orders.begin(0, 1.0, STOP)
     assert orders.at_tick(np.array([WALK, STOP])).tolist() == [STOP, STOP]
     assert orders.heading.tolist() == [1.0, 0.0]
+
+
+def speed_asked(orders: Orders, shown: int) -> float:
+    orders.at_tick(np.array([shown]))
+    return float(orders.in_force.asked_speed[0])
+
+
+def test_a_speed_holds_until_the_next_behaviour_is_asked_for_and_not_while_a_one_shot_is():
+    orders = walking()
+    assert np.isnan(speed_asked(orders, WALK))
+    orders.give(0, Command(0.0, WALK, speed=1.1), shown=WALK)
+    assert [speed_asked(orders, WALK) for _ in range(3)] == [1.1] * 3
+    orders.give(0, Command(0.0, NONE, JUMP), shown=WALK)
+    assert np.isnan(speed_asked(orders, WALK))
+    for _ in range(HOLD_TICKS + 1):
+        left = speed_asked(orders, JUMP)
+    assert left == 1.1
+    orders.give(0, Command(0.0, RUN), shown=WALK)
+    assert np.isnan(speed_asked(orders, WALK))

@@ -15,6 +15,7 @@ from footwork.motion.coded_values import exact
 from footwork.motion.graph import MotionGraph, captured
 from footwork.motion.lookahead import best_action
 from footwork.motion.moves import no_moves
+from footwork.motion.requests import ANY_SPEED, asked_for
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.motion.turn_warp import turn_warp, turned
@@ -62,7 +63,13 @@ def solved(graph: MotionGraph, sweeps: int = 120) -> np.ndarray:
         old = values.copy()
         for (node, asked, bin_), _ in np.ndenumerate(values):
             values[node, asked, bin_] = best_action(
-                *choices, old, *plain, node, asked, float(TASK.headings[bin_]), False
+                *choices,
+                old,
+                *plain,
+                node,
+                asked_for(TASK.requests, asked, ANY_SPEED),
+                float(TASK.headings[bin_]),
+                False,
             )[0]
     return values.astype(np.float32)
 

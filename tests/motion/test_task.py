@@ -7,6 +7,7 @@ import pytest
 
 from footwork.errors import InputError
 from footwork.motion import lookahead
+from footwork.motion.actions import rules_of
 from footwork.motion.task import SteeringTask
 
 TASK = SteeringTask()
@@ -37,6 +38,20 @@ def test_the_kernel_gives_the_same_quality():
     ):
         kernel = lookahead.control_quality(delta, wanted == shown, bool(TASK.headed[wanted]), TASK.heading_sigma)
         assert kernel == pytest.approx(float(TASK.control_quality(delta, wanted, shown)))
+
+
+def test_speeds_are_judged_by_how_far_off_they_are_for_what_was_asked():
+    task = SteeringTask(speeds={"walk": (1.0,)}, speed_sigma=0.1, speed_weight=0.75)
+    off = math.exp(-0.5)
+    wanted = np.array([2.0, 2.0, 0.5, math.nan])
+    expected = [1.0, 0.25 + 0.75 * off, 0.25 + 0.75 * off, 1.0]
+    quality = task.speed_quality(np.array([2.0, 2.2, 0.4, 7.0]), wanted)
+    np.testing.assert_allclose(quality, expected)
+    kernel = [
+        lookahead.speed_quality(speed, asked, rules_of(task))
+        for speed, asked in zip([2.0, 2.2, 0.4, 7.0], wanted.tolist(), strict=True)
+    ]
+    np.testing.assert_allclose(kernel, expected)
 
 
 def test_interpolation_is_periodic_and_exact_at_the_bins():
@@ -84,6 +99,17 @@ def test_extra_turns_are_levels_of_a_limit_by_behaviour():
         ("warp_levels", 27),
         ("segment_ticks", 0),
         ("segment_ticks", 31),
+        ("speeds", {"stop": (1.0,)}),
+        ("speeds", {"crawl": (1.0,)}),
+        ("speeds", {"walk": ()}),
+        ("speeds", {"walk": (1.0, 1.0)}),
+        ("speeds", {"walk": (-0.1, 1.0)}),
+        ("speeds", {"walk": (1.0, 21.0)}),
+        ("speeds", {"walk": (math.nan,)}),
+        ("speeds", {"run": tuple(range(17))}),
+        ("speed_sigma", 0.0),
+        ("speed_weight", 1.1),
+        ("speed_weight", math.nan),
     ],
 )
 def test_a_senseless_task_is_refused(name, value):

@@ -39,7 +39,7 @@ from_clients = st.one_of(
     ),
     st.builds(m.Spawn, **moved, x=place, z=place, yaw=place, behaviour=name),
     st.builds(m.Command, **moved, keys=keys, tick=counter),
-    st.builds(m.Command, **moved, heading=place, behaviour=name, tick=counter),
+    st.builds(m.Command, **moved, heading=place, behaviour=name, tick=counter, speed=st.none() | st.floats(0, 20)),
     st.builds(m.Correct, **moved, x=place, z=place, yaw=place),
     st.builds(m.Teleport, **moved, x=place, z=place, yaw=place),
     st.builds(m.Despawn, **moved),

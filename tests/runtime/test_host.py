@@ -16,6 +16,7 @@ from footwork.protocol.errors import (
     MALFORMED,
     NO_SESSION,
     SESSIONS,
+    SPEED,
     STATE,
     VERSION,
     LocalError,
@@ -24,7 +25,7 @@ from footwork.protocol.pose_arrays import root_of, rotations_of
 from footwork.runtime.host import Host
 from footwork.runtime.simulation import Simulation
 from talk import BUNDLE, LIMITS, SECOND, Talk, codes, spawn, the_pose, walk
-from toy_bundle import SHOWN
+from toy_bundle import SHOWN, toy_bundle
 
 
 @pytest.fixture
@@ -46,6 +47,22 @@ def test_the_welcome_tells_what_a_client_needs_to_draw(talk):
         BUNDLE.digest,
         BUNDLE.attribution,
     )
+
+
+def test_a_speed_is_taken_where_the_bundle_takes_one_and_refused_elsewhere():
+    talk = Talk(bundle=toy_bundle(speeds={"walk": (0.5, 1.5), "run": (3.0,)}))
+    assert talk.open(b"a").speeds == {"walk": (0.5, 1.5)}  # it shows no run
+    talk.say(b"a", spawn(1, 0), walk(2, speed=1.0))
+    assert not codes(talk.tick(b"a"))
+    talk.say(b"a", walk(3, behaviour="stop", speed=1.0))
+    error = next(answer for answer in talk.tick(b"a") if isinstance(answer, m.Error))
+    assert (error.code, error.sequence, error.valid) == (SPEED, 3, ("walk",))
+
+
+def test_a_bundle_without_speeds_takes_none(talk):
+    assert talk.open(b"a").speeds == {}
+    talk.say(b"a", spawn(1, 0), walk(2, speed=1.0))
+    assert codes(talk.tick(b"a")) == [SPEED]
 
 
 def test_a_character_appears_where_it_was_put_and_its_pose_follows_every_tick(talk):

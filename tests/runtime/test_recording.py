@@ -23,10 +23,11 @@ HEADER = r.Header(
 RECORDS = (
     r.Spawned(1, 2, 0.1, 1.0 / 3.0, -1e-17, "walk", -1),
     r.Commanded(1, 2, 0.30000000000000004, 1, -1),
+    r.Commanded(1, 2, 0.5, 1, -1, 1.1),
     r.Corrected(9, 2, 5e-324, 1.0, 2.0),
     r.Teleported(9, 2, 1.0, 1.0, 2.0),
     r.Restored(40, (2,), b"blob"),
-    r.Resimulated(40, (2,), 8, ((0, 2, 0.5, 1, -1),)),
+    r.Resimulated(40, (2,), 8, ((0, 2, 0.5, 1, -1, None), (3, 2, 0.5, 1, -1, 1.25))),
     r.State(60, bytes(range(16))),
     r.Removed(61, 2),
     r.End(61),

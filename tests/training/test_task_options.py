@@ -18,6 +18,18 @@ def test_degrees_and_parts_become_the_tasks():
     assert task.warp_share == {"stop": 0.1, "walk": 1.0, "run": 1.0, "jump": 0.2}
 
 
+def test_speeds_are_read_for_each_behaviour():
+    task = TaskOptions(speeds=("walk=0.8,1.2,1.6", "run=3"), speed_sigma=0.2, speed_weight=0.5).task()
+    assert task.speeds == {"walk": (0.8, 1.2, 1.6), "run": (3.0,)}
+    assert (task.speed_sigma, task.speed_weight) == (0.2, 0.5)
+
+
+@pytest.mark.parametrize("text", ["walk", "walk=", "walk=fast", "walk=1;2"])
+def test_speeds_that_are_none_are_refused(text):
+    with pytest.raises(InputError, match=r"--speeds: .* expected such as walk=0\.8,1\.2,1\.6"):
+        TaskOptions(speeds=(text,)).task()
+
+
 @pytest.mark.parametrize("option", [{"warp": 7.0}, {"warp_stop": 2.0}, {"discount": 1.0}, {"reward": "best"}])
 def test_what_no_task_can_have_is_refused(option):
     with pytest.raises(InputError, match="task: "):

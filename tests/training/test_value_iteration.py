@@ -22,6 +22,7 @@ from motion_samples import ring_graph
 
 TASK = SteeringTask(behaviours=("stop", "walk"), heading_bins=12, discount=0.9)
 WARPED = replace(TASK, warp=math.radians(6.0), warp_share={"walk": 1.0, "stop": 0.5}, warp_levels=3)
+AT_SPEEDS = {"speeds": {"walk": (0.4, 0.7, 1.2)}, "speed_sigma": 0.25, "speed_weight": 0.8}
 TASKS = {
     "product": TASK,
     "sum": replace(TASK, reward="sum", weight=0.8),
@@ -29,6 +30,8 @@ TASKS = {
     "warped sum": replace(WARPED, reward="sum", weight=1.3),
     "segments": replace(TASK, segment_ticks=3),
     "warped segments": replace(WARPED, segment_ticks=2),
+    "speeds": replace(TASK, **AT_SPEEDS),
+    "warped sum at speeds": replace(WARPED, reward="sum", weight=1.3, **AT_SPEEDS),
 }
 
 
@@ -58,7 +61,7 @@ def test_values_of_other_graphs_too(seed):
     np.testing.assert_allclose(table.values, ExactSteering(graph, WARPED).solved(), atol=1e-5)
 
 
-@pytest.mark.parametrize("name", ["product", "warped sum"])
+@pytest.mark.parametrize("name", ["product", "warped sum", "speeds", "warped sum at speeds"])
 @pytest.mark.parametrize("player", PLAYERS)
 @pytest.mark.parametrize("listed", [True, False])
 def test_the_tables_greedy_policy_is_the_exact_one(name, player, listed):
@@ -69,7 +72,8 @@ def test_the_tables_greedy_policy_is_the_exact_one(name, player, listed):
     table = solve(graph, task, player=model, tolerance=1e-6)
     controller = SteeringController(graph, table if listed else table.unlisted, exact_facing=False)
     states = np.array(list(np.ndindex(*exact.shape)))
-    edge, turn = chosen(controller, states[:, 0], states[:, 1], task.headings[states[:, 2]])
+    wanted, speed = (part[states[:, 1]] for part in task.requests)
+    edge, turn = chosen(controller, states[:, 0], wanted, task.headings[states[:, 2]], speed)
     number = {(e, round(t, 9)): action for action, (e, t) in enumerate(exact.choices())}
     actions = [number[e, round(t, 9)] for e, t in zip(edge.tolist(), turn.tolist(), strict=True)]
     best = worth.max(axis=0)
@@ -106,12 +110,26 @@ def worth_between(exact, table, edge, turn, wanted, heading):
     return exact.rewards(edge, turn, wanted, np.array([heading]))[0] + table.task.discount * ahead
 
 
-def chosen(controller, node, wanted, heading):
+def test_between_two_levels_a_speed_is_judged_by_itself_and_its_worth_interpolated():
+    graph, levels = random_steering_graph(7, nodes=6, degree=3), TASKS["speeds"]
+    between = replace(levels, speeds={"walk": (0.5,)})
+    solved, judged = ExactSteering(graph, levels).solved(), ExactSteering(graph, between)
+    low, high = solved[:, 2], solved[:, 3]  # of 0.4 and 0.7 m/s
+    worth = judged.action_values(np.stack([*solved[:, :2].swapaxes(0, 1), low + (high - low) / 3], axis=1))[:, :, 2]
+    controller = SteeringController(graph, solve(graph, levels, tolerance=1e-6))
+    states = np.array(list(np.ndindex(6, levels.heading_bins)))
+    edge, _ = chosen(
+        controller, states[:, 0], np.ones(len(states)), levels.headings[states[:, 1]], np.full(len(states), 0.5)
+    )
+    np.testing.assert_allclose(worth[edge, *states.T], worth.max(axis=0)[*states.T], atol=1e-5)
+
+
+def chosen(controller, node, wanted, heading, speed=None):
     """Edges and extra turns at states, of characters that face along z."""
     count = len(node)
     moves, place = no_moves(count), np.zeros((count, 3))
     kinds = node.astype(np.int32), wanted.astype(np.int32)
-    controller.choose(Situations(np.arange(count), kinds[0], place, heading, kinds[1]), moves)
+    controller.choose(Situations(np.arange(count), kinds[0], place, heading, kinds[1], speed), moves)
     return moves.edge, moves.adjustment[:, 2]
 
 

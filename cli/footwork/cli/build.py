@@ -76,7 +76,13 @@ def build(
         warming.join()
         compiled = time.perf_counter() - started - read
         bundle, report = build_bundle(
-            dataset, options, task=task, machine=states, players=recorded, progress=report_progress
+            dataset,
+            options,
+            task=task,
+            machine=states,
+            speed_levels=asked.speed_levels,
+            players=recorded,
+            progress=report_progress,
         )
         digest = write_bundle(out, bundle)
     if report["policy"] is None:

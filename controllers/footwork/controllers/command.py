@@ -6,9 +6,14 @@ from dataclasses import dataclass
 
 from footwork.errors import InputError
 from footwork.motion.keys import behaviour_of_keys, heading_of_keys
+from footwork.motion.requests import ANY_SPEED
 from footwork.motion.task import ONE_SHOT
 
 NONE = -1
+
+
+class UnknownSpeed(InputError):  # noqa: N818  (it reads as what happened)
+    """A speed was asked for of a behaviour that takes none; the message lists those that do."""
 
 
 class UnknownBehaviour(InputError):  # noqa: N818  (it reads as what happened)
@@ -23,11 +28,18 @@ class Command:
         heading: wanted yaw in the world, radians.
         behaviour: index of the behaviour to go on with, -1 to go on as before.
         one_shot: index of a behaviour to do once, such as a jump, -1 for none.
+        speed: that of the behaviour to go on with, m/s, None where any will do.
     """
 
     heading: float
     behaviour: int
     one_shot: int = NONE
+    speed: float | None = None
+
+    @property
+    def asked_speed(self) -> float:
+        """The speed as arrays hold it."""
+        return ANY_SPEED if self.speed is None else self.speed
 
 
 class Vocabulary:
@@ -36,10 +48,12 @@ class Vocabulary:
     Args:
         behaviours: all that commands number, in order (``MotionGraph.behaviours``).
         present: those that some frame shows (``SteeringController.present``).
+        speeds: those that take a speed (``SteeringController.speeds``).
     """
 
-    def __init__(self, behaviours: tuple[str, ...], present: Collection[str]) -> None:
+    def __init__(self, behaviours: tuple[str, ...], present: Collection[str], speeds: Collection[str] = ()) -> None:
         self.present = tuple(name for name in behaviours if name in present)
+        self.with_speed = tuple(name for name in self.present if name in speeds)
         self._index = {name: index for index, name in enumerate(behaviours) if name in present}
         self._numbers = {NONE, *self._index.values()}
 
@@ -78,16 +92,29 @@ class Vocabulary:
         lasting = self.index(behaviour_of_keys(forward, strafe, run, self.present))
         return Command(float(heading_of_keys(view_yaw, forward, strafe)), lasting, once)
 
-    def outright(self, heading: float, behaviour: str) -> Command:
-        """The command for a heading and a behaviour; one-shot behaviours leave the lasting one as it is.
+    def outright(self, heading: float, behaviour: str, speed: float | None = None) -> Command:
+        """The command for a heading and a behaviour, at a speed in m/s where one is given.
+
+        One-shot behaviours leave the lasting one as it is. Speeds beyond those that can be asked for come to the
+        nearest one that can.
 
         Raises:
             UnknownBehaviour: for a behaviour that no frame shows.
-            InputError: for a heading that is not finite.
+            UnknownSpeed: for a speed of a behaviour that takes none.
+            InputError: for a heading that is not finite, or a speed that is below 0 or not finite.
         """
         _require_finite(heading, "heading")
         index = self.index(behaviour)
-        return Command(heading, NONE, index) if behaviour in ONE_SHOT else Command(heading, index)
+        if speed is not None:
+            self._check_speed(behaviour, speed)
+        return Command(heading, NONE, index) if behaviour in ONE_SHOT else Command(heading, index, speed=speed)
+
+    def _check_speed(self, behaviour: str, speed: float) -> None:
+        if not 0.0 <= speed < math.inf:
+            raise InputError(f"speed is {speed}, expected a finite number of m/s from 0 on", "command")
+        if behaviour not in self.with_speed:
+            takers = ", ".join(self.with_speed) or "none"
+            raise UnknownSpeed(f"{behaviour!r} takes no speed, of its behaviours {takers} do", "command")
 
 
 def _require_finite(value: float, name: str) -> None:

@@ -20,6 +20,7 @@ class Situations:
         place: planar places (x, z, yaw) in the world, metres and radians.  # (C, 3)
         heading: wanted yaw in the world, radians.  # (C,)
         behaviour: index into the graph's behaviours of what is asked for.  # (C,) int32
+        speed: the speed asked for, m/s, ANY_SPEED where any will do; None where none is asked of anyone.  # (C,)
     """
 
     slot: NDArray[np.intp]
@@ -27,6 +28,7 @@ class Situations:
     place: NDArray[np.float64]
     heading: NDArray[np.float64]
     behaviour: NDArray[np.int32]
+    speed: NDArray[np.float64] | None = None
 
 
 class Controller(Protocol):
@@ -66,6 +68,11 @@ class Controller(Protocol):
         A call of the same situations after the same calls gives the same moves.
         """
         ...
+
+
+def speeds_of(controller: Controller) -> dict[str, tuple[float, float]]:
+    """The slowest and the fastest, m/s, that behaviours can be asked for; none of a controller that takes no speeds."""
+    return getattr(controller, "speeds", {})
 
 
 def present_behaviours(graph: MotionGraph) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import NONE, Command
+from footwork.motion.requests import ANY_SPEED
 
 LATCH_TICKS = 30
 """How long a one-shot behaviour waits to be entered: 1 s (convention)."""
@@ -25,6 +26,8 @@ class InForce(NamedTuple):
         held: index of the one-shot behaviour whose key is held, -1 for none.  # (C,) int32
         ticks_left: how much longer the latched one is asked for.  # (C,) int32
         entered: whether the character showed it at the last tick.  # (C,) bool
+        speed: that of the behaviour to go on with, m/s, ANY_SPEED where any will do.  # (C,) float64
+        asked_speed: the speed that was asked for at the last tick.  # (C,) float64
     """
 
     heading: NDArray[np.float64]
@@ -34,14 +37,18 @@ class InForce(NamedTuple):
     held: NDArray[np.int32]
     ticks_left: NDArray[np.int32]
     entered: NDArray[np.bool_]
+    speed: NDArray[np.float64]
+    asked_speed: NDArray[np.float64]
 
 
 @numba.njit(cache=True, nogil=True)
-def put_in_force(slot: int, heading: float, behaviour: int, one_shot: int, shown: int, in_force: InForce) -> None:
+def put_in_force(
+    slot: int, heading: float, behaviour: int, one_shot: int, speed: float, shown: int, in_force: InForce
+) -> None:
     """Put a command into force for a character that shows the behaviour ``shown`` now, -1 for none."""
     in_force.heading[slot] = heading
     if behaviour != NONE:
-        in_force.lasting[slot] = behaviour
+        in_force.lasting[slot], in_force.speed[slot] = behaviour, speed
     held = in_force.held[slot]
     in_force.held[slot] = one_shot
     if one_shot != NONE and one_shot != held and one_shot != shown:
@@ -58,7 +65,7 @@ def ask(slots: NDArray, shown: NDArray, in_force: InForce) -> None:
         shown: index of the behaviour that each of them shows now, -1 for none, row for row with ``slots``.  # (n,)
         in_force: their commands.
     """
-    _, lasting, asked, latched, _, ticks_left, entered = in_force
+    _, lasting, asked, latched, _, ticks_left, entered, speed, asked_speed = in_force
     for row in range(slots.shape[0]):
         who = slots[row]
         shows = latched[who] == shown[row] and latched[who] != NONE
@@ -67,9 +74,9 @@ def ask(slots: NDArray, shown: NDArray, in_force: InForce) -> None:
         if (entered[who] and not shows) or ticks_left[who] == 0:
             latched[who] = NONE
         entered[who] = shows
-        asked[who] = lasting[who]
+        asked[who], asked_speed[who] = lasting[who], speed[who]
         if latched[who] != NONE:
-            asked[who] = latched[who]
+            asked[who], asked_speed[who] = latched[who], ANY_SPEED
             ticks_left[who] -= 1
 
 
@@ -98,15 +105,18 @@ class Orders:
             held=np.full(capacity, NONE, dtype=np.int32),
             ticks_left=np.zeros(capacity, dtype=np.int32),
             entered=np.zeros(capacity, dtype=np.bool_),
+            speed=np.full(capacity, ANY_SPEED),
+            asked_speed=np.full(capacity, ANY_SPEED),
         )
         self.heading, self.asked = self.in_force.heading, self.in_force.asked
         self._slots = np.arange(capacity)
 
     def begin(self, slot: int, heading: float, behaviour: int) -> None:
         """Forget what the slot was asked for before; a new character begins with this."""
-        _, lasting, asked, latched, held, ticks_left, entered = self.in_force
+        _, lasting, asked, latched, held, ticks_left, entered, speed, asked_speed = self.in_force
         self.heading[slot] = heading
         lasting[slot] = asked[slot] = behaviour
+        speed[slot] = asked_speed[slot] = ANY_SPEED
         latched[slot] = held[slot] = NONE
         ticks_left[slot], entered[slot] = 0, False
 
@@ -118,7 +128,8 @@ class Orders:
             command: what is asked for.
             shown: index of the behaviour that the character shows now, -1 for none.
         """
-        put_in_force(slot, float(command.heading), command.behaviour, command.one_shot, shown, self.in_force)
+        heading, speed = float(command.heading), command.asked_speed
+        put_in_force(slot, heading, command.behaviour, command.one_shot, speed, shown, self.in_force)
 
     def at_tick(self, shown: NDArray) -> NDArray[np.int32]:
         """The behaviour to ask for at this tick, once a tick before edges are chosen.

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.actions import Actions
 from footwork.motion.coded_values import CodedValues
+from footwork.motion.requests import Requests
 
 
 class Policy(NamedTuple):
@@ -15,6 +16,7 @@ class Policy(NamedTuple):
         actions: of the graph and the task.
         coded: PolicyTable.coded.
         shortlist: PolicyTable.shortlist.
+        requests: SteeringTask.requests.
         onward: ``onward_edges``.  # (N,)
         segment_ticks: SteeringTask.segment_ticks.
         exact: whether turns may lie between the levels.
@@ -26,6 +28,7 @@ class Policy(NamedTuple):
     actions: Actions
     coded: CodedValues
     shortlist: NDArray
+    requests: Requests
     onward: NDArray
     segment_ticks: int
     exact: bool

@@ -12,6 +12,7 @@ from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import MotionGraph
 from footwork.motion.lookahead import best_action, best_listed_action
 from footwork.motion.moves import Moves, fill_moves
+from footwork.motion.requests import ANY_SPEED, Requests, asked_for
 from footwork.motion.table import PolicyTable
 from footwork.motion.turn_warp import turn_about, turn_warp
 
@@ -34,6 +35,7 @@ def decide(
     actions: Actions,
     coded: CodedValues,
     shortlist: NDArray,
+    requests: Requests,
     onward: NDArray,
     segment_ticks: int,
     exact: bool,
@@ -42,6 +44,7 @@ def decide(
     place: NDArray,
     heading: NDArray,
     behaviour: NDArray,
+    speed: NDArray,
     held: NDArray,
     edge: NDArray,
     turn: NDArray,
@@ -51,17 +54,18 @@ def decide(
     Args:
         actions: of the graph and the task.
         coded: PolicyTable.coded.
-        shortlist: PolicyTable.shortlist.  # (N, B, H) or (N, B, 0)
+        shortlist: PolicyTable.shortlist, for all but speeds between two levels.  # (N, Q, H) or (N, Q, 0)
+        requests: SteeringTask.requests.
         onward: ``onward_edges``.  # (N,)
         segment_ticks: SteeringTask.segment_ticks.
         exact: whether turns may lie between the levels.
-        slot: as of Situations, and so are node, place, heading and behaviour.  # (C,)
+        slot: as of Situations, and so are node, place, heading, behaviour and speed.  # (C,)
         held: ticks by slot for which the last decision still holds, counted down here.  # (slots,)
         edge: the result.  # (C,) int32
         turn: the result, radians.  # (C,)
     """
     # Compiled code counts references at each look into a tuple of arrays, so it looks once.
-    edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, rules = actions
+    edge_start, target, yaw, smoothness, shown, turn_limit, price, level, turn_smoothness, headed, pace, rules = actions
     codes, lowest, step = coded
     for who in range(node.shape[0]):
         if held[slot[who]] > 0:
@@ -70,7 +74,8 @@ def decide(
         else:
             held[slot[who]] = segment_ticks - 1
             left = heading[who] - place[who, 2]
-            if shortlist.shape[2]:
+            asked = asked_for(requests, behaviour[who], speed[who])
+            if shortlist.shape[2] and asked.share == 0.0:
                 edge[who], turn[who] = best_listed_action(
                     edge_start,
                     target,
@@ -82,13 +87,14 @@ def decide(
                     level,
                     turn_smoothness,
                     headed,
+                    pace,
                     rules,
                     codes,
                     lowest,
                     step,
                     shortlist,
                     node[who],
-                    behaviour[who],
+                    asked,
                     left,
                     exact,
                 )
@@ -104,12 +110,13 @@ def decide(
                     level,
                     turn_smoothness,
                     headed,
+                    pace,
                     rules,
                     codes,
                     lowest,
                     step,
                     node[who],
-                    behaviour[who],
+                    asked,
                     left,
                     exact,
                 )
@@ -134,6 +141,7 @@ def steer(
     place: NDArray,
     heading: NDArray,
     behaviour: NDArray,
+    speed: NDArray,
     held: NDArray,
     edge: NDArray,
     target: NDArray,
@@ -147,6 +155,7 @@ def steer(
         actions,
         policy.coded,
         policy.shortlist,
+        policy.requests,
         policy.onward,
         policy.segment_ticks,
         policy.exact,
@@ -155,6 +164,7 @@ def steer(
         place,
         heading,
         behaviour,
+        speed,
         held,
         edge,
         turn,
@@ -197,6 +207,7 @@ class SteeringController:
             actions=actions_of(graph, table.task, warp),
             coded=table.coded,
             shortlist=table.shortlist,
+            requests=table.task.requests,
             onward=onward_edges(graph),
             segment_ticks=table.task.segment_ticks,
             exact=exact_facing,
@@ -204,6 +215,7 @@ class SteeringController:
             displacement=graph.displacement,
             natural=graph.natural,
         )
+        self._any_speed = np.full(1, ANY_SPEED)
         self._held = np.zeros(1, dtype=np.int32)  # ticks by slot for which the last decision still holds
 
     @property
@@ -215,6 +227,13 @@ class SteeringController:
     def present(self) -> tuple[str, ...]:
         """The behaviours that some frame of the graph shows."""
         return present_behaviours(self.graph)
+
+    @property
+    def speeds(self) -> dict[str, tuple[float, float]]:
+        """The slowest and the fastest, m/s, that behaviours can be asked for; only those that can be at a speed."""
+        return {
+            name: (levels[0], levels[-1]) for name, levels in self.table.task.speeds.items() if name in self.present
+        }
 
     @property
     def table_bytes(self) -> int:
@@ -240,7 +259,7 @@ class SteeringController:
         node, behaviour = situations.node, situations.behaviour
         self._check(node, self.graph.node_count, "node")
         self._check(behaviour, len(self.behaviours), "behaviour")
-        self._make_room(int(situations.slot.max(initial=-1)) + 1)
+        self._make_room(max(len(node), int(situations.slot.max(initial=-1)) + 1))
         steer(
             self.policy,
             situations.slot,
@@ -248,6 +267,7 @@ class SteeringController:
             situations.place,
             situations.heading,
             behaviour,
+            self._any_speed[: len(node)] if situations.speed is None else situations.speed,
             self._held,
             moves.edge,
             moves.target,
@@ -260,6 +280,7 @@ class SteeringController:
         short = count - len(self._held)
         if short > 0:
             self._held = np.append(self._held, np.zeros(short, np.int32))
+            self._any_speed = np.full(count, ANY_SPEED)
 
     def start_node(self, behaviour: str = "stop") -> int:
         """A good node to spawn at: of those that show the behaviour, the one worth most on average over all headings.

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.arrays import frozen
 from footwork.motion.graph import MotionGraph
+from footwork.motion.node_speed import node_speeds
 from footwork.motion.task import SteeringTask
 from footwork.motion.turn_warp import TurnWarp
 
@@ -19,12 +20,16 @@ class Rules(NamedTuple):
         discount: the worth of the next tick's reward against this one's.
         additive: whether the reward is the sum.
         weight: of the transition quality in a sum.
+        speed_sigma: SteeringTask.speed_sigma.
+        speed_weight: SteeringTask.speed_weight.
     """
 
     heading_sigma: float
     discount: float
     additive: bool
     weight: float
+    speed_sigma: float
+    speed_weight: float
 
 
 class Actions(NamedTuple):
@@ -43,6 +48,7 @@ class Actions(NamedTuple):
         level: extra turns to choose among, as shares of the largest, none first.  # (L,)
         turn_smoothness: what each multiplies qt by.  # (N, L)
         headed: SteeringTask.headed.  # (B,)
+        speed: of each node, m/s; zero where no speed can be asked for.  # (N,)
         rules: the scalars.
     """
 
@@ -56,6 +62,7 @@ class Actions(NamedTuple):
     level: NDArray[np.float64]
     turn_smoothness: NDArray[np.float64]
     headed: NDArray[np.bool_]
+    speed: NDArray[np.float64]
     rules: Rules
 
 
@@ -75,7 +82,8 @@ def actions_of(graph: MotionGraph, task: SteeringTask, warp: TurnWarp | None = N
         level=task.turn_levels,
         turn_smoothness=np.exp(-4.0 * price[:, None] * np.sin(0.5 * turn) ** 2),
         headed=task.headed,
-        rules=Rules(task.heading_sigma, task.discount, task.additive, task.weight),
+        speed=node_speeds(graph) if task.speeds else np.zeros(graph.node_count),
+        rules=rules_of(task),
     )
     return _read_only(actions)
 
@@ -84,6 +92,11 @@ def _read_only(actions: Actions) -> Actions:
     """The same with no array to be written to: kernels are compiled anew for each mixture."""
     arrays = {name: part for name, part in actions._asdict().items() if isinstance(part, np.ndarray)}
     return actions._replace(**{name: frozen(array, array.dtype) for name, array in arrays.items()})
+
+
+def rules_of(task: SteeringTask) -> Rules:
+    """The scalars of a task."""
+    return Rules(task.heading_sigma, task.discount, task.additive, task.weight, task.speed_sigma, task.speed_weight)
 
 
 def onward_edges(graph: MotionGraph) -> NDArray[np.int32]:

@@ -1,6 +1,6 @@
 """Values of a policy table as they are kept: as they are, or in sixteen bits.
 
-In sixteen bits a row of headings, which is of one node under one behaviour, is codes with a least value and a step of
+In sixteen bits a row of headings, which is of one node under one request, is codes with a least value and a step of
 its own. How values compare is what matters. Half precision errs thirty times as much; one range for all rows of a node
 would tell rows apart that are alike (convention).
 """
@@ -20,9 +20,9 @@ class CodedValues(NamedTuple):
     """Values low + step code.
 
     Args:
-        codes: of each value: float32, which are the values themselves, or uint16.  # (N, B, H)
-        low: what code 0 stands for in each row.  # (N, B) float32
-        step: what one code is worth in each row, zero where all its values are alike.  # (N, B) float32
+        codes: of each value: float32, which are the values themselves, or uint16.  # (N, Q, H)
+        low: what code 0 stands for in each row.  # (N, Q) float32
+        step: what one code is worth in each row, zero where all its values are alike.  # (N, Q) float32
     """
 
     codes: NDArray
@@ -31,7 +31,7 @@ class CodedValues(NamedTuple):
 
     @property
     def values(self) -> NDArray[np.float32]:
-        """What the codes stand for.  # (N, B, H)"""
+        """What the codes stand for.  # (N, Q, H)"""
         if self.codes.dtype == np.float32:
             return self.codes
         return (self.low[..., None] + self.step[..., None] * self.codes.astype(np.float64)).astype(np.float32)
@@ -60,13 +60,13 @@ class CodedValues(NamedTuple):
 
 
 def exact(values: NDArray) -> CodedValues:
-    """Values as they are, to float32.  # (N, B, H)"""
+    """Values as they are, to float32.  # (N, Q, H)"""
     rows = values.shape[:2]
     return CodedValues(values.astype(np.float32), np.zeros(rows, np.float32), np.ones(rows, np.float32))
 
 
 def quantised(values: NDArray) -> CodedValues:
-    """Finite values in sixteen bits, within half a step of each.  # (N, B, H)"""
+    """Finite values in sixteen bits, within half a step of each.  # (N, Q, H)"""
     low = values.min(axis=-1).astype(np.float32)
     above = values - low[..., None].astype(np.float64)
     step = (above.max(axis=-1) / LARGEST_CODE).astype(np.float32)

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from footwork.motion.actions import Rules
 from footwork.motion.angle import wrapped_angle
+from footwork.motion.requests import Asked
+from footwork.motion.task import SLOW
 
 
 @numba.njit(cache=True, nogil=True)
@@ -43,6 +45,15 @@ def control_quality(delta: float, matches: bool, headed: bool, sigma: float) -> 
 
 
 @numba.njit(cache=True, nogil=True)
+def speed_quality(speed: float, wanted: float, rules: Rules) -> float:
+    """SteeringTask.speed_quality for one frame."""
+    if math.isnan(wanted):
+        return 1.0
+    apart = (speed - wanted) / (rules.speed_sigma * max(wanted, SLOW))
+    return 1.0 - rules.speed_weight + rules.speed_weight * math.exp(-0.5 * apart**2)
+
+
+@numba.njit(cache=True, nogil=True)
 def reward_of(control: float, smoothness: float, additive: bool, weight: float) -> float:
     """What a tick of control quality qc and transition quality qt earns (SteeringTask.reward)."""
     return control + weight * (smoothness - 1.0) if additive else control * smoothness
@@ -55,24 +66,29 @@ def arrival_value(
     lowest: NDArray,
     step: NDArray,
     there: int,
-    wanted: int,
+    asked: Asked,
     heading: float,
     control: float,
     smoothness: float,
 ) -> float:
     """r + discount W of a tick that ends at a node, judged there (conventions.md 5).
 
+    Between two levels of speed W is interpolated.
+
     Args:
         rules: of the task.
-        codes: of CodedValues, and so are ``lowest`` and ``step``.  # (N, B, H)
+        codes: of CodedValues, and so are ``lowest`` and ``step``.  # (N, Q, H)
         there: the node arrived at.
-        wanted: index of the behaviour asked for.
+        asked: what is asked for.
         heading: wanted heading less facing on arrival, radians.
         control: qc on arrival.
         smoothness: qt of the edge and the extra turn together.
     """
     reward = reward_of(control, smoothness, rules.additive, rules.weight)
-    return reward + rules.discount * interpolate(codes, lowest, step, there, wanted, heading)
+    worth = interpolate(codes, lowest, step, there, asked.low, heading)
+    if asked.share > 0.0:
+        worth += asked.share * (interpolate(codes, lowest, step, there, asked.high, heading) - worth)
+    return reward + rules.discount * worth
 
 
 @numba.njit(cache=True, nogil=True)
@@ -85,13 +101,16 @@ def exact_value(
     price: NDArray,
     edge: int,
     there: int,
-    wanted: int,
-    matches: bool,
+    asked: Asked,
+    most: float,
     turn: float,
 ) -> float:
-    """``arrival_value`` of an extra turn, at its price, that brings the facing right onto the heading."""
+    """``arrival_value`` of an extra turn, at its price, that brings the facing right onto the heading.
+
+    ``most`` is qc there: what the behaviour and the speed leave of it.
+    """
     quality = smoothness[edge] * math.exp(-4.0 * price[there] * math.sin(0.5 * turn) ** 2)
-    return arrival_value(rules, codes, lowest, step, there, wanted, 0.0, 1.0 if matches else 0.0, quality)
+    return arrival_value(rules, codes, lowest, step, there, asked, 0.0, most, quality)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -106,12 +125,13 @@ def best_action(
     level: NDArray,
     turn_smoothness: NDArray,
     headed: NDArray,
+    speed: NDArray,
     rules: Rules,
     codes: NDArray,
     lowest: NDArray,
     step: NDArray,
     node: int,
-    wanted: int,
+    asked: Asked,
     heading: float,
     exact: bool,
 ) -> tuple[float, int, float, int]:
@@ -122,28 +142,29 @@ def best_action(
 
     Args:
         edge_start: as of Actions, and so are the arrays up to ``rules``.
-        codes: of CodedValues, and so are ``lowest`` and ``step``.  # (N, B, H)
+        codes: of CodedValues, and so are ``lowest`` and ``step``.  # (N, Q, H)
         node: where the character is.
-        wanted: index of the behaviour asked for.
+        asked: what is asked for.
         heading: wanted heading less facing, radians.
         exact: whether to look, besides the levels, at the turn that brings the facing right onto the heading.
     """
     highest, best, best_turn, number = -np.inf, -1, 0.0, 0
-    gaussian = bool(headed[wanted])
+    gaussian = bool(headed[asked.behaviour])
     for edge in range(edge_start[node], edge_start[node + 1]):
         there, left = int(target[edge]), heading - yaw[edge]
-        limit, matches = turn_limit[there], wanted == behaviour[there]
+        limit, matches = turn_limit[there], asked.behaviour == behaviour[there]
+        most = speed_quality(float(speed[there]), asked.speed, rules) if matches else 0.0
         first = (edge - edge_start[node]) * len(level)
         for k in range(len(level) if limit > 0.0 else 1):
             turn = limit * level[k]
-            control = control_quality(left - turn, matches, gaussian, rules.heading_sigma)
+            control = most * control_quality(left - turn, matches, gaussian, rules.heading_sigma)
             quality = smoothness[edge] * turn_smoothness[there, k]
-            value = arrival_value(rules, codes, lowest, step, there, wanted, left - turn, control, quality)
+            value = arrival_value(rules, codes, lowest, step, there, asked, left - turn, control, quality)
             if value > highest:
                 highest, best, best_turn, number = value, edge, turn, first + k
         turn = wrapped_angle(float(left))
         if exact and abs(turn) < limit:
-            value = exact_value(rules, codes, lowest, step, smoothness, price, edge, there, wanted, matches, turn)
+            value = exact_value(rules, codes, lowest, step, smoothness, price, edge, there, asked, most, turn)
             if value > highest:
                 highest, best, best_turn, number = value, edge, turn, first
     return highest, best, best_turn, number
@@ -161,39 +182,41 @@ def best_listed_action(
     level: NDArray,
     turn_smoothness: NDArray,
     headed: NDArray,
+    speed: NDArray,
     rules: Rules,
     codes: NDArray,
     lowest: NDArray,
     step: NDArray,
     shortlist: NDArray,
     node: int,
-    wanted: int,
+    asked: Asked,
     heading: float,
     exact: bool,
 ) -> tuple[int, float]:
     """The edge and the extra turn of the better of two actions: those best at the headings tabulated on either side.
 
     Where both are the same one there is nothing to judge, but whether to turn right onto the heading. Arguments as of
-    ``best_action``, and ``shortlist`` is that of PolicyTable.  # (N, B, H)
+    ``best_action``, ``asked`` is not between two levels, and ``shortlist`` is that of PolicyTable.  # (N, Q, H)
     """
     highest, best, best_turn = -np.inf, -1, 0.0
     low, high, _ = bins_around(heading, shortlist.shape[2])
-    one, other = int(shortlist[node, wanted, low]), int(shortlist[node, wanted, high])
+    one, other = int(shortlist[node, asked.low, low]), int(shortlist[node, asked.low, high])
     for number in (one, other):
         edge, k = edge_start[node] + number // len(level), number % len(level)
         there, left = int(target[edge]), heading - yaw[edge]
-        limit, matches = turn_limit[there], wanted == behaviour[there]
+        limit, matches = turn_limit[there], asked.behaviour == behaviour[there]
+        most = speed_quality(float(speed[there]), asked.speed, rules) if matches else 0.0
         turn, straight = limit * level[k], wrapped_angle(float(left))
         reaches = exact and abs(straight) < limit
         if one == other and not reaches:
             return edge, turn
-        control = control_quality(left - turn, matches, bool(headed[wanted]), rules.heading_sigma)
+        control = most * control_quality(left - turn, matches, bool(headed[asked.behaviour]), rules.heading_sigma)
         quality = smoothness[edge] * turn_smoothness[there, k]
-        value = arrival_value(rules, codes, lowest, step, there, wanted, left - turn, control, quality)
+        value = arrival_value(rules, codes, lowest, step, there, asked, left - turn, control, quality)
         if value > highest:
             highest, best, best_turn = value, edge, turn
         if reaches:
-            value = exact_value(rules, codes, lowest, step, smoothness, price, edge, there, wanted, matches, straight)
+            value = exact_value(rules, codes, lowest, step, smoothness, price, edge, there, asked, most, straight)
             if value > highest:
                 highest, best, best_turn = value, edge, straight
     return best, best_turn

@@ -16,20 +16,20 @@ SHORTLIST_KINDS = np.uint8, np.uint16
 
 @dataclass(frozen=True, eq=False)
 class PolicyTable:
-    """Values of a steering task over (node, behaviour, relative heading), and how they were found.
+    """Values of a steering task over (node, request, relative heading), and how they were found.
 
     They are of commands asked for now, when it is not known yet what the next tick asks for: W = P V, where V is the
     worth of a node under a command and P the player model. For a player who never changes their mind W is V.
 
     Args:
         task: the axes, the reward, the actions and the discount.
-        coded: discounted reward to come, as it is or in sixteen bits.  # (N, B, H)
+        coded: discounted reward to come, as it is or in sixteen bits.  # (N, Q, H)
         residual: the largest change of any of these values by one more backup, or a bound of it.
         sweeps: how many sweeps were made.
         converged: whether the residual came under the tolerance before values were rounded to sixteen bits.
         player: how commands were taken to change from tick to tick; None for never.
         shortlist: the number of every state's best action (``lookahead.best_action``); empty where controllers shall
-            look at all.  # (N, B, H) or (N, B, 0)
+            look at all.  # (N, Q, H) or (N, Q, 0)
 
     Raises:
         InputError: for values of the wrong shape or that are not finite, a shortlist of the wrong shape or kind, or a
@@ -46,7 +46,7 @@ class PolicyTable:
     where: str = "policy table"
 
     def __post_init__(self) -> None:
-        checked = self.coded.checked(len(self.task.behaviours), self.task.heading_bins, self.where)
+        checked = self.coded.checked(len(self.task.requests.behaviour), self.task.heading_bins, self.where)
         object.__setattr__(self, "coded", checked)
         object.__setattr__(self, "shortlist", self._checked_shortlist())
         if self.player is not None:
@@ -74,7 +74,7 @@ class PolicyTable:
 
     @property
     def values(self) -> NDArray[np.float32]:
-        """Discounted reward to come; made anew each time where it is kept in sixteen bits.  # (N, B, H)"""
+        """Discounted reward to come; made anew each time where it is kept in sixteen bits.  # (N, Q, H)"""
         return self.coded.values
 
     @property
@@ -109,6 +109,6 @@ def require_axes(player: PlayerModel, task: SteeringTask) -> None:
 
 
 def shortlisted(best: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
-    """Best actions (N, B, H) in as few bits as hold them, and none (N, B, 0) where a shortlist cannot."""
+    """Best actions (N, Q, H) in as few bits as hold them, and none (N, Q, 0) where a shortlist cannot."""
     kind = next((kind for kind in SHORTLIST_KINDS if best.max(initial=0) <= np.iinfo(kind).max), None)
     return best[..., :0].astype(np.uint8) if kind is None else best.astype(kind)

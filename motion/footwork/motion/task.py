@@ -3,12 +3,14 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion.angle import wrapped
+from footwork.motion.requests import ANY_SPEED, Requests
 
 BEHAVIOUR_OF_LABEL = {"idle": "stop", "walk": "walk", "turn": "walk", "run": "run", "jump": "jump"}
 HEADED = ("walk", "run")
@@ -19,11 +21,15 @@ MOST_WARP = math.radians(6.0)
 WARP_SHARES = {"stop": 0.25, "walk": 1.0, "run": 1.0, "jump": 0.5}
 MOST_LEVELS = 25
 MOST_TICKS = 30
+MOST_SPEED = 20.0
+MOST_SPEED_LEVELS = 16
+SLOW = 1.0
+"""Speeds under this, m/s, are judged as it is."""
 
 
 @dataclass(frozen=True)
 class SteeringTask:
-    """Relative heading x behaviour, by edges and extra turns (conventions.md 5).
+    """Relative heading x behaviour, at any speed or some, by edges and extra turns (conventions.md 5).
 
     Args:
         behaviours: what may be asked for.
@@ -38,11 +44,16 @@ class SteeringTask:
         warp_share: the part of it that frames of each behaviour may be turned by; none of it for those not named.
         warp_levels: among how many extra turns, evenly spread, the policy chooses.
         segment_ticks: for how many ticks a decision holds; natural edges are followed in between.
+        speeds: levels, m/s, of the behaviours that may be asked for at a speed; none for those not named.
+        speed_sigma: width of the Gaussian that judges a speed, as a part of the one asked for or of 1 m/s where that
+            is slower.
+        speed_weight: the part of control quality that hangs on the speed where one is asked for.
 
     Raises:
         InputError: for no behaviours, fewer than four headings, widths or a weight not above zero, a discount outside
             [0, 1), an unknown reward, a warp outside 0..6 degrees, shares outside 0..1, an even number of levels or
-            more than 25, or segments of no tick or more than 30.
+            more than 25, segments of no tick or more than 30, and speeds of behaviours that have no heading, outside
+            0..20 m/s, that do not rise or are more than 16.
     """
 
     behaviours: tuple[str, ...] = BEHAVIOURS
@@ -56,11 +67,14 @@ class SteeringTask:
     warp_share: Mapping[str, float] = field(default_factory=lambda: dict(WARP_SHARES))
     warp_levels: int = 5
     segment_ticks: int = 1
+    speeds: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    speed_sigma: float = 0.1
+    speed_weight: float = 0.75
 
     def __post_init__(self) -> None:
         _require(len(self.behaviours) > 0, "no behaviours, expected at least one")
         _require(self.heading_bins >= 4, f"{self.heading_bins} heading bins, expected at least 4")
-        for name in ("heading_sigma", "smoothness_sigma", "weight"):
+        for name in ("heading_sigma", "smoothness_sigma", "weight", "speed_sigma"):
             value = getattr(self, name)
             _require(math.isfinite(value) and value > 0.0, f"{name} is {value}, expected a positive number")
         _require(0.0 <= self.discount < 1.0, f"discount is {self.discount}, expected 0 <= discount < 1")
@@ -69,6 +83,7 @@ class SteeringTask:
             1 <= self.segment_ticks <= MOST_TICKS, f"{self.segment_ticks} segment ticks, expected 1 to {MOST_TICKS}"
         )
         self._check_warp()
+        self._check_speeds()
 
     def _check_warp(self) -> None:
         degrees = math.degrees(self.warp)
@@ -77,6 +92,28 @@ class SteeringTask:
         _require(odd, f"{self.warp_levels} warp levels, expected an odd number up to {MOST_LEVELS}")
         for name, share in self.warp_share.items():
             _require(0.0 <= share <= 1.0, f"the warp share of {name} is {share}, expected 0 to 1")
+
+    def _check_speeds(self) -> None:
+        _require(0.0 <= self.speed_weight <= 1.0, f"speed_weight is {self.speed_weight}, expected 0 to 1")
+        headed = [name for name in self.behaviours if name in HEADED]
+        for name, levels in self.speeds.items():
+            _require(name in headed, f"speeds of {name!r}, expected only of {', '.join(headed) or 'no behaviour'}")
+            many = 1 <= len(levels) <= MOST_SPEED_LEVELS
+            _require(many, f"{len(levels)} speeds of {name}, expected 1 to {MOST_SPEED_LEVELS}")
+            within = all(0.0 <= level <= MOST_SPEED for level in levels)  # NaN is not
+            rising = all(low < high for low, high in pairwise(levels))
+            told = ", ".join(f"{level:g}" for level in levels)
+            _require(within and rising, f"speeds of {name} are {told}, expected rising ones of 0 to {MOST_SPEED:g} m/s")
+
+    @property
+    def requests(self) -> Requests:
+        """What may be asked for: every behaviour at any speed, then the levels of each."""
+        behaviour, speed = list(range(len(self.behaviours))), [ANY_SPEED] * len(self.behaviours)
+        for index, name in enumerate(self.behaviours):
+            levels = self.speeds.get(name, ())
+            behaviour += [index] * len(levels)
+            speed += levels
+        return Requests(np.array(behaviour, np.int32), np.array(speed))
 
     @property
     def headings(self) -> NDArray[np.float64]:
@@ -120,6 +157,19 @@ class SteeringTask:
         """
         heading = np.where(self.headed[wanted], np.exp(-0.5 * (wrapped(delta) / self.heading_sigma) ** 2), 1.0)
         return np.where(np.equal(wanted, shown), heading, 0.0)
+
+    def speed_quality(self, speed: NDArray, wanted: NDArray) -> NDArray[np.float64]:
+        """What qc is multiplied by: 1 - w + w exp(-((speed - wanted) / sigma)^2 / 2), 1 where any speed will do.
+
+        w is ``speed_weight`` and sigma is ``speed_sigma`` times the speed wanted, of 1 m/s at least (convention).
+
+        Args:
+            speed: of the frame judged, m/s (``node_speeds``).  # (...)
+            wanted: the speed asked for, m/s, ANY_SPEED for none.  # (...)
+        """
+        sigma = self.speed_sigma * np.maximum(wanted, SLOW)
+        near = np.exp(-0.5 * ((speed - wanted) / sigma) ** 2)
+        return np.where(np.isnan(wanted), 1.0, 1.0 - self.speed_weight + self.speed_weight * near)
 
 
 def _require(holds: bool, problem: str) -> None:

@@ -81,11 +81,12 @@ class Client:
         self._send(m.Spawn(sequence=sequence, character=character, x=x, z=z, yaw=yaw, behaviour=behaviour))
         return sequence
 
-    def command(self, character: int, heading: float, behaviour: str, *, tick: int = 0) -> int:
-        """Ask for a direction of travel, radians, and a behaviour."""
-        sequence = self._next()
-        asked = m.Command(sequence=sequence, character=character, heading=heading, behaviour=behaviour, tick=tick)
-        self._send(asked)
+    def command(
+        self, character: int, heading: float, behaviour: str, *, speed: float | None = None, tick: int = 0
+    ) -> int:
+        """Ask for a direction of travel, radians, and a behaviour, at a speed in m/s where it takes one."""
+        sequence, asked = self._next(), {"heading": heading, "behaviour": behaviour, "speed": speed}
+        self._send(m.Command(sequence=sequence, character=character, tick=tick, **asked))
         return sequence
 
     def keys(self, character: int, keys: m.Keys, *, tick: int = 0) -> int:

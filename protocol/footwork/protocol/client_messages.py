@@ -13,6 +13,7 @@ from footwork.protocol.fields import (
     Radians,
     Sequence,
     Sign,
+    Speed,
     Token,
     Version,
 )
@@ -87,6 +88,7 @@ class Command(Message, frozen=True):
         heading: wanted direction of travel in the world, radians.
         behaviour: one of the welcome's behaviours.
         tick: the tick it is for; 0 or a tick gone by is the next one.
+        speed: m/s, of a behaviour that takes one; none where any will do, and with keys.
     """
 
     sequence: Sequence
@@ -95,11 +97,14 @@ class Command(Message, frozen=True):
     heading: Radians | None = None
     behaviour: Name | None = None
     tick: Counter = 0
+    speed: Speed | None = None
 
     def __post_init__(self) -> None:
         outright = (self.heading is not None, self.behaviour is not None)
         if (self.keys is None) != all(outright) or any(outright) != all(outright):
             raise ValueError("expected either keys, or both heading and behaviour")
+        if self.keys is not None and self.speed is not None:
+            raise ValueError("expected no speed with keys")
 
 
 class Correct(Message, frozen=True):

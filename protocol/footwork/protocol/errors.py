@@ -15,6 +15,7 @@ CHARACTERS = "characters"
 CHARACTER_TAKEN = "character_taken"
 CHARACTER_UNKNOWN = "character_unknown"
 BEHAVIOUR = "behaviour"
+SPEED = "speed"
 LOCK_STEP = "lock_step"
 RESUME = "resume"
 
@@ -32,6 +33,7 @@ CODES = {
     CHARACTER_TAKEN: "the session has a character of this number already",
     CHARACTER_UNKNOWN: "the session has no character of this number",
     BEHAVIOUR: "the bundle has no such behaviour; ``valid`` lists those it has",
+    SPEED: "the behaviour takes no speed; ``valid`` lists those that do",
     LOCK_STEP: "a step where the server has a clock of its own, or while the session's last one is not answered",
     RESUME: "no session waits for this token; the session is closed, say hello without it",
 }

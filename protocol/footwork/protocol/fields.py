@@ -7,6 +7,7 @@ from msgspec import Meta
 # Bounds refuse NaN and infinities too: neither is above a lower and below an upper bound.
 Metres = Annotated[float, Meta(ge=-1e5, le=1e5)]
 Radians = Annotated[float, Meta(ge=-1e5, le=1e5)]
+Speed = Annotated[float, Meta(ge=0, le=20)]
 Sign = Annotated[int, Meta(ge=-1, le=1)]
 # Whole numbers stay exact in a peer whose only number is a double.
 Counter = Annotated[int, Meta(ge=0, le=2**53 - 1)]
@@ -25,5 +26,6 @@ VectorBytes = Annotated[bytes, Meta(min_length=12, max_length=12)]
 RotationBytes = Annotated[bytes, Meta(min_length=16, max_length=16 * 256)]
 # Empty, or as long as the server makes them.
 Token = Annotated[bytes, Meta(max_length=16)]
+SpeedRanges = Annotated[dict[Name, tuple[Speed, Speed]], Meta(max_length=256)]
 Kinds = Annotated[tuple[Name, ...], Meta(max_length=16)]
 CharacterNumbers = Annotated[tuple[CharacterNumber, ...], Meta(max_length=65536)]

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from msgspec import Meta
+from msgspec import Meta, field
 
 from footwork.protocol.fields import (
     CharacterNumber,
@@ -16,6 +16,7 @@ from footwork.protocol.fields import (
     Offsets,
     Radians,
     RotationBytes,
+    SpeedRanges,
     Text,
     Token,
     VectorBytes,
@@ -50,6 +51,7 @@ class Welcome(Message, frozen=True):
         resumed: whether this is the session that hello's token named.
         sequence: the highest that a message of the session had.
         spawned: numbers of the characters that the session has.
+        speeds: the slowest and the fastest, m/s, that commands may ask of each behaviour that takes a speed.
     """
 
     version: Version
@@ -74,6 +76,7 @@ class Welcome(Message, frozen=True):
     resumed: bool = False
     sequence: Counter = 0
     spawned: CharacterNumbers = ()
+    speeds: SpeedRanges = field(default_factory=dict)
 
 
 class Pose(Message, frozen=True):

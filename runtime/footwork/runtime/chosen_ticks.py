@@ -43,16 +43,18 @@ class ChosenTicks:
 
     def _give(self, schedule: Schedule, tick: int) -> None:
         due = schedule.tick == tick
-        for _, slot, heading, behaviour, one_shot in zip(*(array[due].tolist() for array in schedule), strict=True):
+        rows = zip(*(array[due].tolist() for array in schedule), strict=True)
+        for _, slot, heading, behaviour, one_shot, speed in rows:
             shown = int(self._world.graph.behaviour[self._world.node[slot]])
-            self._orders.give(slot, Command(heading, behaviour, one_shot), shown)
+            self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
 
     def _step(self, slots: NDArray[np.intp]) -> None:
         world, orders = self._world, self._orders
         node = world.node[slots]
         ask(slots, world.graph.behaviour[node], orders.in_force)
         chosen = self._chosen.first(len(slots))
-        situations = Situations(slots, node, world.place[slots], orders.heading[slots], orders.asked[slots])
+        asked, speed = orders.in_force.asked[slots], orders.in_force.asked_speed[slots]
+        situations = Situations(slots, node, world.place[slots], orders.heading[slots], asked, speed)
         self._controller.choose(situations, chosen)
         self._moves.put(slots, chosen)
         world.step(self._moves, slots)

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import Any, cast
 
-from footwork.controllers.command import Command, UnknownBehaviour
+from footwork.controllers.command import Command, UnknownBehaviour, UnknownSpeed
 from footwork.protocol import messages as m
-from footwork.protocol.errors import BEHAVIOUR, CHARACTER_TAKEN, CHARACTER_UNKNOWN, CHARACTERS, PeerError
+from footwork.protocol.errors import BEHAVIOUR, CHARACTER_TAKEN, CHARACTER_UNKNOWN, CHARACTERS, SPEED, PeerError
 from footwork.runtime.limits import Limits
 from footwork.runtime.session import Character, Sequenced, Session
 from footwork.runtime.simulation import Simulation
@@ -44,6 +44,8 @@ class Effects:
             kind = self._by_type[type(message)](session, message)
         except UnknownBehaviour as error:
             raise PeerError(BEHAVIOUR, error.problem, message.sequence, self._simulation.behaviours) from None
+        except UnknownSpeed as error:
+            raise PeerError(SPEED, error.problem, message.sequence, self._simulation.vocabulary.with_speed) from None
         if kind is None:
             return None
         tick = self._simulation.tick + 1
@@ -73,7 +75,7 @@ class Effects:
         vocabulary = self._simulation.vocabulary
         if message.keys is None:
             # The message's own check lets none through that lacks either.
-            return vocabulary.outright(cast(float, message.heading), cast(str, message.behaviour))
+            return vocabulary.outright(cast(float, message.heading), cast(str, message.behaviour), message.speed)
         keys = message.keys
         return vocabulary.of_keys(keys.view_yaw, keys.forward, keys.strafe, keys.run, JUMP if keys.jump else "")
 

@@ -9,12 +9,15 @@ from footwork.runtime.limits import Limits
 from footwork.runtime.session import Session
 
 
-def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], frame_rate: int, limits: Limits) -> m.Welcome:
+def welcome_of(
+    bundle: Bundle, behaviours: tuple[str, ...], speeds: dict[str, tuple[float, float]], frame_rate: int, limits: Limits
+) -> m.Welcome:
     """The welcome of a server that plays ``bundle``, as far as it is the same for all sessions.
 
     Args:
         bundle: what is played.
         behaviours: what commands may ask for.
+        speeds: the slowest and the fastest that they may ask of each behaviour that takes a speed, m/s.
         frame_rate: shown frames a second.
         limits: how much the client may ask for.
 
@@ -32,6 +35,7 @@ def welcome_of(bundle: Bundle, behaviours: tuple[str, ...], frame_rate: int, lim
         offsets=tuple(map(tuple, skeleton.offsets.tolist())),
         ends=tuple(map(tuple, skeleton.ends.tolist())),
         behaviours=behaviours,
+        speeds=speeds,
         clips=bundle.graph.clips,
         digest=bundle.digest,
         attribution=bundle.attribution,

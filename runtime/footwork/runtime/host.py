@@ -65,7 +65,7 @@ class Host:
             LocalError: for a bundle that the wire cannot hold.
         """
         frame_rate = self._frames * m.TICK_RATE
-        welcome = welcome_of(simulation.bundle, simulation.behaviours, frame_rate, self.limits)
+        welcome = welcome_of(simulation.bundle, simulation.behaviours, simulation.speeds, frame_rate, self.limits)
         return replace(welcome, lockstep=self.lockstep)
 
     def succeed(self, succession: Succession, welcome: m.Welcome) -> None:

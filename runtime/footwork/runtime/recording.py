@@ -34,8 +34,8 @@ Slot = Annotated[int, Meta(ge=0, lt=MOST_CHARACTERS)]
 Number = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Index = Annotated[int, Meta(ge=-1, le=32767)]
 Slots = Annotated[tuple[Slot, ...], Meta(max_length=4096)]
-Given = tuple[Annotated[int, Meta(ge=0, le=LONGEST_GAP)], Slot, Number, Index, Index]
-"""A command in a run of ticks: before which of them, to whom, heading, behaviour and one-shot behaviour."""
+Given = tuple[Annotated[int, Meta(ge=0, le=LONGEST_GAP)], Slot, Number, Index, Index, Number | None]
+"""A command in a run of ticks: before which of them, to whom, heading, behaviour, one-shot behaviour and speed."""
 
 
 class Header(Struct, frozen=True, kw_only=True):
@@ -92,6 +92,7 @@ class Commanded(Record, frozen=True, array_like=True, gc=False, tag="command"):
     heading: Number
     behaviour: Index
     one_shot: Index
+    speed: Number | None = None
 
 
 class Corrected(Record, frozen=True, array_like=True, gc=False, tag="correct"):

@@ -183,7 +183,7 @@ def _(effect: r.Spawned, simulation: Simulation) -> None:
 
 @take_effect.register
 def _(effect: r.Commanded, simulation: Simulation) -> None:
-    simulation.give(effect.slot, Command(effect.heading, effect.behaviour, effect.one_shot))
+    simulation.give(effect.slot, Command(effect.heading, effect.behaviour, effect.one_shot, effect.speed))
 
 
 @take_effect.register

@@ -1,5 +1,6 @@
 """Commands with the ticks that they are for, as arrays that kernels read."""
 
+import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -18,6 +19,7 @@ class Schedule(NamedTuple):
         heading: of the commands, radians.  # (K,) float64
         behaviour: of the commands.  # (K,) int64
         one_shot: of the commands.  # (K,) int64
+        speed: of the commands, m/s, ANY_SPEED where any will do.  # (K,) float64
     """
 
     tick: NDArray[np.int64]
@@ -25,6 +27,7 @@ class Schedule(NamedTuple):
     heading: NDArray[np.float64]
     behaviour: NDArray[np.int64]
     one_shot: NDArray[np.int64]
+    speed: NDArray[np.float64]
 
 
 def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
@@ -33,7 +36,14 @@ def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
     whole = [(tick, slot, command.behaviour, command.one_shot) for tick, slot, command in ordered]
     numbers = np.array(whole, dtype=np.int64).reshape(-1, 4).T.copy()
     heading = np.array([command.heading for _, _, command in ordered], dtype=np.float64)
-    return Schedule(numbers[0], numbers[1], heading, numbers[2], numbers[3])
+    speed = np.array([command.asked_speed for _, _, command in ordered], dtype=np.float64)
+    return Schedule(numbers[0], numbers[1], heading, numbers[2], numbers[3], speed)
+
+
+def rows_of(schedule: Schedule) -> tuple[tuple, ...]:
+    """The commands one by one, with None in place of ANY_SPEED."""
+    rows = zip(*(column.tolist() for column in schedule), strict=True)
+    return tuple((*whole, None if math.isnan(speed) else speed) for *whole, speed in rows)
 
 
 NOTHING = schedule_of(())

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import Command, Vocabulary
-from footwork.controllers.controller import Controller
+from footwork.controllers.controller import Controller, speeds_of
 from footwork.controllers.orders import Orders
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
@@ -28,7 +28,7 @@ from footwork.runtime.recording import (
     Spawned,
     Teleported,
 )
-from footwork.runtime.schedule import NOTHING, schedule_of
+from footwork.runtime.schedule import NOTHING, rows_of, schedule_of
 from footwork.runtime.snapshot import Snapshots
 from footwork.runtime.ticks import ticks_of
 from footwork.runtime.warm import warm_kernels
@@ -52,6 +52,7 @@ class Simulation:
     Attributes:
         tick: the tick last made, from 0.
         behaviours: what commands may ask for: those that some frame shows.
+        speeds: the slowest and the fastest that they may ask of each behaviour that takes a speed, m/s.
         vocabulary: reads commands.
 
     Raises:
@@ -76,7 +77,8 @@ class Simulation:
         if not self.behaviours:
             raise InputError("no frame shows any behaviour, expected at least one", graph.where)
         self._idle = _IDLE if _IDLE in self.behaviours else self.behaviours[0]
-        self.vocabulary = Vocabulary(graph.behaviours, self.behaviours)
+        self.speeds = speeds_of(self._controller)
+        self.vocabulary = Vocabulary(graph.behaviours, self.behaviours, self.speeds)
         self._orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._shown_as = self._numbering()
@@ -145,7 +147,7 @@ class Simulation:
         self.vocabulary.require(command)
         shown = self.world.graph.behaviour[self.world.node[slot]]
         self._orders.give(slot, command, int(shown))
-        self._record(Commanded, slot, float(command.heading), command.behaviour, command.one_shot)
+        self._record(Commanded, slot, float(command.heading), command.behaviour, command.one_shot, command.speed)
 
     def stand(self, slot: int) -> None:
         """Let a character stop where it is, as far as the bundle lets it."""
@@ -224,9 +226,8 @@ class Simulation:
         schedule = schedule_of(given)
         self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
         self._noted = False
-        columns = (column.tolist() for column in schedule)
         if self._recorder is not None:
-            self._record(Resimulated, tuple(map(int, slots)), ticks, tuple(zip(*columns, strict=True)))
+            self._record(Resimulated, tuple(map(int, slots)), ticks, rows_of(schedule))
 
     def digest(self) -> bytes:
         """A digest of all that is remembered of all characters.  # 16 bytes"""

@@ -67,10 +67,19 @@ def _all_between(numbers, first, last):
 
 
 @numba.njit(cache=True, nogil=True)
+def _speeds(numbers):
+    """Whether each is ANY_SPEED, which is no number, or one that can be asked for."""
+    wrong = 0
+    for value in numbers.flat:
+        wrong += value < 0.0 or value > _BEYOND
+    return wrong == 0
+
+
+@numba.njit(cache=True, nogil=True)
 def _sound(slots, characters: Characters, in_force: InForce, truths, nodes, edges, behaviours, settle_ticks):
     """Whether what is remembered of characters can be: numbers that index are in range, the others bounded."""
     node, place, edge, _, glide, ticks_left, offsets, roots, _, anchor, slip, stride = characters
-    heading, lasting, asked, latched, held, latch_left, _ = in_force
+    heading, lasting, asked, latched, held, latch_left, _, speed, asked_speed = in_force
     sound = True
     for who in slots:
         one = slice(who, who + 1)
@@ -82,6 +91,7 @@ def _sound(slots, characters: Characters, in_force: InForce, truths, nodes, edge
         for array in truths:
             sound &= _all_between(array[one], 0, 1)
         sound &= _bounded(place[one]) and _bounded(glide[one]) and _bounded(heading[one])
+        sound &= _speeds(speed[one]) and _speeds(asked_speed[one])
         sound &= _bounded(offsets[one]) and _bounded(roots[one])
         sound &= _bounded(anchor[one]) and _bounded(slip[one])
     return sound

@@ -47,17 +47,17 @@ def make_ticks(
         poses: written: place of joint 0, then local rotations joint by joint.  # (T, F, n, 3 + 4 J) float32
     """
     edge, target, displacement, adjustment, natural = moves
-    node, place, heading, asked = characters.node, characters.place, in_force.heading, in_force.asked
+    when, who, ahead, lasting, once, pace = schedule
+    node, place, heading = characters.node, characters.place, in_force.heading
+    asked, asked_speed = in_force.asked, in_force.asked_speed
     count, frames, joints = slots.shape[0], poses.shape[1], (poses.shape[3] - 3) // 4
     root, rotations = np.empty((node.shape[0], 3), np.float32), np.empty((node.shape[0], joints, 4), np.float32)
     come = 0
     for tick in range(poses.shape[0]):
-        while come < schedule.tick.shape[0] and schedule.tick[come] <= tick:
-            whose = schedule.slot[come]
+        while come < when.shape[0] and when[come] <= tick:
+            whose = who[come]
             shows = int(behaviour[node[whose]])
-            put_in_force(
-                whose, schedule.heading[come], schedule.behaviour[come], schedule.one_shot[come], shows, in_force
-            )
+            put_in_force(whose, ahead[come], lasting[come], once[come], pace[come], shows, in_force)
             come += 1
         ask(slots, behaviour[node[slots]], in_force)
         steer(
@@ -67,6 +67,7 @@ def make_ticks(
             place[slots],
             heading[slots],
             asked[slots],
+            asked_speed[slots],
             held,
             edge[:count],
             target[:count],

@@ -143,7 +143,7 @@ def from_table(nodes: NDArray, values: NDArray, heading: float, wanted: int, aft
 
     Args:
         nodes: which.  # (n,)
-        values: PolicyTable.values.  # (N, B, H)
+        values: PolicyTable.values.  # (N, Q, H)
         heading: wanted yaw in the world, radians.
         wanted: index of the behaviour asked for.
         after: the result.  # (N, bins)

@@ -11,5 +11,5 @@ from footwork.motion.task import SteeringTask
 
 def greedy(graph: MotionGraph, task: SteeringTask) -> SteeringController:
     """Steering by a table in which nothing is worth anything; of equal rewards the first edge wins."""
-    shape = graph.node_count, len(task.behaviours), task.heading_bins
+    shape = graph.node_count, len(task.requests.behaviour), task.heading_bins
     return SteeringController(graph, PolicyTable(task, exact(np.zeros(shape)), 0.0, 0, True, where="greedy"))

@@ -21,6 +21,7 @@ from footwork.training.graph_options import GraphOptions, require_machine
 from footwork.training.memory import peak_rss_mb
 from footwork.training.player_model import learned
 from footwork.training.recipe import Built
+from footwork.training.speed_levels import with_speed_levels
 from footwork.training.stages import Progress, Stages
 from footwork.training.standard_recipe import build_standard
 from footwork.training.threshold_choice import chosen
@@ -55,6 +56,7 @@ def build_bundle(
     *,
     task: SteeringTask | None = None,
     machine: StateMachine | None = None,
+    speed_levels: int = 0,
     players: Sequence[Trace] = (),
     progress: Progress | None = None,
 ) -> tuple[Bundle, dict[str, Any]]:
@@ -72,6 +74,7 @@ def build_bundle(
         options: the kind of graph and how it is built.
         task: what may be asked for; the default steering task where not given.
         machine: the states of an annotated graph; for that kind alone.
+        speed_levels: for how many speeds of each headed behaviour whose speeds the task does not give.
         players: recordings that the policy learns from how commands change; without any it takes them never to.
         progress: told the stage and the share of it that is done.
 
@@ -87,6 +90,7 @@ def build_bundle(
     options, choice = chosen(motions.clips, options, stages)
     clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
     built = _built(clips, options, task, stages, machine)
+    task = with_speed_levels(task, built.graph, speed_levels)
     tables: dict[str, PolicyTable] = {}
     if _shown_behaviours(built.graph):
         with stages("policy") as tell:

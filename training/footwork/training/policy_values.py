@@ -30,33 +30,33 @@ def settle(
         copies: values.  # (copies, N, H + 1, B)
         now: the copy.
     """
-    headings, behaviours, values = copies.shape[2] - 1, copies.shape[3], copies[now].reshape(-1)
+    headings, requests, values = copies.shape[2] - 1, copies.shape[3], copies[now].reshape(-1)
     place, shares, rewards = policy
-    ways = _ways(place, shares, wanted, headings, behaviours)
+    ways = _ways(place, shares, wanted, headings, requests)
     order, passed = _passed_by(ways)
     _add_cycles(ways, order, passed)
     core = order[passed:]
     if len(core):
         most = sweeps * len(order) // len(core)
-        _settle_core(policy, discount, wanted, tolerance, most, ways, core, values, headings, behaviours)
+        _settle_core(policy, discount, wanted, tolerance, most, ways, core, values, headings, requests)
     for index in range(passed - 1, -1, -1):
-        at = order[index] * behaviours + wanted
-        here, after = values[place[at]], values[place[at] + behaviours]
+        at = order[index] * requests + wanted
+        here, after = values[place[at]], values[place[at] + requests]
         worth = rewards[at] + discount * (here + shares[at] * (after - here))
-        _put(values, order[index], wanted, headings, behaviours, worth)
+        _put(values, order[index], wanted, headings, requests, worth)
 
 
 @numba.njit(cache=True, nogil=True)
-def _ways(place: NDArray, shares: NDArray, wanted: int, headings: int, behaviours: int) -> NDArray[np.int32]:
+def _ways(place: NDArray, shares: NDArray, wanted: int, headings: int, requests: int) -> NDArray[np.int32]:
     """The two states that each leads to under a command, the same twice where it comes to a heading exactly.  # (S, 2)
 
     They are numbered node * headings + heading.
     """
-    states = len(place) // behaviours
+    states = len(place) // requests
     ways = np.empty((states, 2), np.int32)
     for state in range(states):
-        at = state * behaviours + wanted
-        row = place[at] // behaviours
+        at = state * requests + wanted
+        row = place[at] // requests
         node = row // (headings + 1)
         ways[state] = row - node
         if shares[at] > 0.0:
@@ -122,7 +122,7 @@ def _settle_core(
     core: NDArray[np.int32],
     values: NDArray,
     headings: int,
-    behaviours: int,
+    requests: int,
 ) -> None:
     """Sweep over the core in its own order, in float64, on copies that lie close together."""
     count, number = len(core), np.empty(len(ways), np.int32)
@@ -132,11 +132,11 @@ def _settle_core(
     here, after, reward, worth = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
     for index in range(count):
         state = core[index]
-        at = state * behaviours + wanted
+        at = state * requests + wanted
         after[index] = discount * policy.share[at]
         here[index] = discount - after[index]
         reward[index] = policy.reward[at]
-        worth[index] = values[(state + state // headings) * behaviours + wanted]
+        worth[index] = values[(state + state // headings) * requests + wanted]
     change, made = np.inf, 0
     while change >= tolerance and made < most:
         change = 0.0
@@ -146,14 +146,14 @@ def _settle_core(
             worth[index] = new
         made += 1
     for index in range(count):
-        _put(values, core[index], wanted, headings, behaviours, worth[index])
+        _put(values, core[index], wanted, headings, requests, worth[index])
 
 
 @numba.njit(cache=True, nogil=True)
-def _put(values: NDArray, state: int, wanted: int, headings: int, behaviours: int, worth: float) -> None:
+def _put(values: NDArray, state: int, wanted: int, headings: int, requests: int, worth: float) -> None:
     """Write a state's worth, at the first heading also after the last."""
     node = state // headings
-    at = (state + node) * behaviours + wanted
+    at = (state + node) * requests + wanted
     values[at] = worth
     if state == node * headings:
-        values[at + headings * behaviours] = worth
+        values[at + headings * requests] = worth

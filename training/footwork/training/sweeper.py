@@ -12,10 +12,11 @@ from numpy.typing import DTypeLike, NDArray
 from footwork.errors import InputError
 from footwork.motion.actions import Actions, onward_actions
 from footwork.motion.player_model import PlayerModel, persistent_player
+from footwork.motion.requests import holding_speed
 from footwork.motion.task import SteeringTask
 from footwork.training.policy_values import WORKING_BYTES, settle
 from footwork.training.room import require_room
-from footwork.training.sweeps import evaluate, heading_qualities, improve, no_policy
+from footwork.training.sweeps import evaluate, heading_qualities, improve, no_policy, speed_qualities
 
 EVALUATIONS = 20
 
@@ -33,8 +34,8 @@ def spans_of(edge_start: NDArray[np.int32]) -> list[tuple[int, int]]:
 class Sweeper:
     """Sweeps over the values of a task: greedy ones, and ones that follow the policy found last.
 
-    With N B H states, numbers of z bytes and R = 1 where a decision holds for one tick, else 2, it takes about
-    N B H ((1 + R) z + R (2 z + 4)) bytes: 20 a state in float32, 36 in float64; 36 and 64 where R is 2. Where cycles
+    With N Q H states, numbers of z bytes and R = 1 where a decision holds for one tick, else 2, it takes about
+    N Q H ((1 + R) z + R (2 z + 4)) bytes: 20 a state in float32, 36 in float64; 36 and 64 where R is 2. Where cycles
     are settled it is at most 56 a state more.
 
     Args:
@@ -61,35 +62,37 @@ class Sweeper:
         kind: DTypeLike,
         pool: Executor,
     ) -> None:
-        nodes, behaviours, headings = len(actions.behaviour), len(task.behaviours), task.heading_bins
-        states, copies = nodes * behaviours * headings, 1 + min(task.segment_ticks, 2)
+        requests = task.requests
+        nodes, asked, headings = len(actions.behaviour), len(requests.behaviour), task.heading_bins
+        states, copies = nodes * asked * headings, 1 + min(task.segment_ticks, 2)
         self._settles = player is None and task.segment_ticks == 1
         self.bytes = _bytes_needed(states, np.dtype(kind).itemsize, copies) + self._settles * WORKING_BYTES * states
-        if copies * nodes * (headings + 1) * behaviours > np.iinfo(np.int32).max:
+        if copies * nodes * (headings + 1) * asked > np.iinfo(np.int32).max:
             raise InputError(f"{states} states, expected fewer: places in their values are 32 bits wide", "task")
         require_room(self.bytes, f"{states} states", "fewer frames or heading bins", "task")
-        change = (player or persistent_player(task.behaviours, headings)).change
+        change = holding_speed(player or persistent_player(task.behaviours, headings), requests).change
         self._player = change.astype(kind), player is None
-        self._actions, self._qualities = actions, heading_qualities(task, kind)
+        self._actions = actions
+        self._rewards = requests.behaviour, speed_qualities(actions.speed, task, kind), heading_qualities(task, kind)
         self._discount = np.asarray(task.discount, kind)[()]
         self._pool, self._spans = pool, spans_of(actions.edge_start)
         self._policy, self._ticks = no_policy(states, kind), task.segment_ticks
-        self._copies = np.zeros((copies, nodes, headings + 1, behaviours), kind)
+        self._copies = np.zeros((copies, nodes, headings + 1, asked), kind)
         self._now, self._spare, self.sweeps = 0, list(range(1, copies)), 0
         if self._ticks > 1:
             self._onward = no_policy(states, kind)
-            self._spare.append(self._sweep(improve, self._onward, onward_actions(actions, onward), self._qualities))
+            self._spare.append(self._sweep(improve, self._onward, onward_actions(actions, onward), *self._rewards))
 
     @property
     def values(self) -> NDArray:
-        """The current values.  # (N, B, H)"""
+        """The current values.  # (N, Q, H)"""
         return self._copies[self._now, :, :-1].transpose(0, 2, 1)
 
     def improve(self) -> float:
-        """Make a greedy sweep, and add what it shows all values of a behaviour to lack alike.
+        """Make a greedy sweep, and add what it shows all values of a request to lack alike.
 
         A sweep that changes values by least to most leaves the true ones between discount / (1 - discount) of the
-        least and of the most above them (MacQueen 1966), for each behaviour by itself if commands never change. The
+        least and of the most above them (MacQueen 1966), for each request by itself if commands never change. The
         middle is added where that halves the largest error that can be: elsewhere it could lead away, as sweeps in
         place spread what is alike unevenly.
 
@@ -97,7 +100,7 @@ class Sweeper:
             A residual: the true values are within discount / (1 - discount) times as much.
         """
         old = self._now
-        self._now = self._held(self._sweep(improve, self._policy, self._actions, self._qualities))
+        self._now = self._held(self._sweep(improve, self._policy, self._actions, *self._rewards))
         self._spare.append(old)
         jobs = [self._pool.submit(_change, self._copies[old], self._copies[self._now], *span) for span in self._spans]
         bounds = np.array([job.result() for job in jobs])
@@ -151,7 +154,7 @@ class Sweeper:
 
 @numba.njit(cache=True, nogil=True)
 def _change(before: NDArray, after: NDArray, begin: int, end: int) -> NDArray:
-    """The least and the greatest change of each behaviour in the nodes begin..end-1.  # (2, B)"""
+    """The least and the greatest change of each request in the nodes begin..end-1.  # (2, Q)"""
     bounds = np.empty((2, before.shape[2]))
     bounds[0], bounds[1] = np.inf, -np.inf
     for node in range(begin, end):

@@ -1,7 +1,7 @@
 """The sweeps of value iteration: greedy ones, which look at every action, and cheap ones, which follow a policy.
 
 Values are of commands expected at the next tick, W = P V (``motion.player_model``), in float32 or float64. A node's lie
-as (H + 1, B), its first heading repeated after the last: to shift all headings by whole bins is to begin elsewhere.
+as (H + 1, Q), its first heading repeated after the last: to shift all headings by whole bins is to begin elsewhere.
 Sweeps go from one copy of the values to another, which lie in one array.
 """
 
@@ -23,9 +23,9 @@ class Policy(NamedTuple):
     """One action for each state, as what it earns and where it leads.
 
     Args:
-        place: index of the heading bin that it leads into, in a flat copy of the values.  # (N H B,) int32
-        share: how far it leads beyond that, a part of a bin.  # (N H B,)
-        reward: of its tick.  # (N H B,)
+        place: index of the heading bin that it leads into, in a flat copy of the values.  # (N H Q,) int32
+        share: how far it leads beyond that, a part of a bin.  # (N H Q,)
+        reward: of its tick.  # (N H Q,)
     """
 
     place: NDArray[np.int32]
@@ -48,6 +48,11 @@ def heading_qualities(task: SteeringTask, kind: DTypeLike) -> NDArray:
     return np.exp(-0.5 * (wrapped(delta) / task.heading_sigma) ** 2).astype(kind)
 
 
+def speed_qualities(speed: NDArray[np.float64], task: SteeringTask, kind: DTypeLike) -> NDArray:
+    """SteeringTask.speed_quality of nodes of these speeds under each request.  # (N,) -> (N, Q)"""
+    return task.speed_quality(speed[:, None], task.requests.speed).astype(kind)
+
+
 # what an action is to a sweep, columns of ``terms``: the part of a bin it shifts headings by beyond whole ones, the
 # worth of the bin come to and of the next one, the reward where the behaviour does not match and does
 _SHARE, _HERE, _NEXT, _ELSE, _MATCHED = range(5)
@@ -57,6 +62,8 @@ _SHARE, _HERE, _NEXT, _ELSE, _MATCHED = range(5)
 def improve(
     policy: Policy,
     actions: Actions,
+    asks: NDArray,
+    paces: NDArray,
     qualities: NDArray,
     change: NDArray,
     persistent: bool,
@@ -71,22 +78,24 @@ def improve(
     Args:
         policy: the result.
         actions: of the graph and the task.
+        asks: index of the behaviour that each request asks for.  # (Q,)
+        paces: ``speed_qualities``.  # (N, Q)
         qualities: ``heading_qualities``.  # (513, 2 H)
-        change: PlayerModel.change.  # (B, B, H)
+        change: PlayerModel.change of requests.  # (Q, Q, H)
         persistent: whether commands never change.
         begin: the first node.
         end: the node after the last.
-        copies: values.  # (copies, N, H + 1, B)
+        copies: values.  # (copies, N, H + 1, Q)
         old: the copy that the best actions are the best by.
         new: the copy written to.
     """
-    edge_start, target, yaw, smoothness, shown, turn_limit, _, level, turn_smoothness, headed, rules = actions
+    edge_start, target, yaw, smoothness, shown, turn_limit, _, level, turn_smoothness, headed, _, rules = actions
     place, shares, rewards = policy
-    headings, behaviours = copies.shape[2] - 1, copies.shape[3]
-    states, kind = headings * behaviours, copies.dtype
+    headings, requests = copies.shape[2] - 1, copies.shape[3]
+    states, kind = headings * requests, copies.dtype
     most = len(level) * np.max(edge_start[begin + 1 : end + 1] - edge_start[begin:end])
     there, shift, terms = np.empty(most, np.int32), np.empty(most, np.int32), np.empty((most, 5), kind)
-    ahead, earned = np.empty(2 * states + behaviours, kind), np.empty(states, kind)
+    ahead, earned = np.empty(2 * states + requests, kind), np.empty(states, kind)
     best, choice = np.empty(states, kind), np.empty(states, np.int32)
     for node in range(begin, end):
         count = 0
@@ -100,23 +109,23 @@ def improve(
                 bins = -(yaw[edge] + turn_limit[to] * level[k]) * (headings / (2.0 * np.pi))
                 there[count], shift[count] = to, int(np.floor(bins)) % headings
                 _set_terms(rules, bins - np.floor(bins), smoothness[edge] * turn_smoothness[to, k], terms, count)
-                _earn(qualities, shift[count], terms, count, matched, gaussian, behaviours, earned)
-                _take_better(count, terms, earned, ahead, shift[count] * behaviours, behaviours, best, choice)
+                _earn(qualities, shift[count], terms, count, matched, gaussian, asks, paces[to], earned)
+                _take_better(count, terms, earned, ahead, shift[count] * requests, requests, best, choice)
                 count += 1
         at = node * states
         for h in range(headings):
-            for wanted in range(behaviours):
-                action = int(choice[h * behaviours + wanted])
+            for wanted in range(requests):
+                action = int(choice[h * requests + wanted])
                 to, bin_ = int(there[action]), h + int(shift[action])
                 bin_ -= headings if bin_ >= headings else 0
-                place[at] = (to * (headings + 1) + bin_) * behaviours + wanted
+                place[at] = (to * (headings + 1) + bin_) * requests + wanted
                 shares[at] = terms[action, _SHARE]
-                if shown[to] != wanted:
+                if shown[to] != asks[wanted]:
                     rewards[at] = terms[action, _ELSE]
-                elif headed[wanted]:
+                elif headed[shown[to]]:
                     row, between, base, gain = _rows_between(terms, action)
                     first, second = qualities[row, bin_], qualities[row + 1, bin_]
-                    rewards[at] = base + gain * (first + between * (second - first))
+                    rewards[at] = base + gain * paces[to, wanted] * (first + between * (second - first))
                 else:
                     rewards[at] = terms[action, _MATCHED]
                 at += 1
@@ -134,13 +143,13 @@ def _set_terms(rules: Rules, share: float, smoothness: float, terms: NDArray, ac
 @numba.njit(cache=True, nogil=True)
 def _copy_twice(copies: NDArray, old: int, node: int, ahead: NDArray) -> None:
     """Write a node's values twice over, so that they are a plain stretch of memory from whatever heading on."""
-    headings, behaviours = copies.shape[2] - 1, copies.shape[3]
-    row = headings * behaviours
+    headings, requests = copies.shape[2] - 1, copies.shape[3]
+    row = headings * requests
     values = copies[old, node].reshape(-1)
     for at in range(row):
         ahead[at] = values[at]
     second = ahead[row:]
-    for at in range(row + behaviours):
+    for at in range(row + requests):
         second[at] = values[at]
 
 
@@ -152,20 +161,26 @@ def _earn(
     action: int,
     matched: int,
     headed: bool,
-    behaviours: int,
+    asks: NDArray,
+    pace: NDArray,
     earned: NDArray,
 ) -> None:
-    """Write the reward of an action that comes to a frame of behaviour ``matched`` under each command."""
+    """Write the reward of an action that comes to a frame of behaviour ``matched`` under each request.
+
+    ``pace`` is what the frame's speed does to it, of headed behaviours alone.  # (Q,)
+    """
     earned[:] = terms[action, _ELSE]
     if headed:
         row, between, base, gain = _rows_between(terms, action)
-        headings = len(earned) // behaviours
+        headings = len(earned) // len(asks)
         first, second = qualities[row, shift : shift + headings], qualities[row + 1, shift : shift + headings]
-        into = earned[matched::behaviours]
-        for h in range(headings):
-            into[h] = base + gain * (first[h] + between * (second[h] - first[h]))
+        for wanted in range(len(asks)):
+            if asks[wanted] == matched:
+                into, gained = earned[wanted :: len(asks)], gain * pace[wanted]
+                for h in range(headings):
+                    into[h] = base + gained * (first[h] + between * (second[h] - first[h]))
     elif matched >= 0:
-        earned[matched::behaviours] = terms[action, _MATCHED]
+        earned[matched :: len(asks)] = terms[action, _MATCHED]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -184,13 +199,13 @@ def _take_better(
     earned: NDArray,
     ahead: NDArray,
     begin: int,
-    behaviours: int,
+    requests: int,
     best: NDArray,
     choice: NDArray,
 ) -> None:
     """Put an action in where it is worth more than the best so far."""
     here, after = terms[action, _HERE], terms[action, _NEXT]
-    first, second = ahead[begin:], ahead[begin + behaviours :]
+    first, second = ahead[begin:], ahead[begin + requests :]
     for at in range(len(best)):
         value = earned[at] + (here * first[at] + after * second[at])
         better = value > best[at]
@@ -221,19 +236,19 @@ def evaluate(
         policy: what to follow.
         discount: of a tick, of the values' own type.
         in_place: whether to go on from new values where there are any.
-        change: PlayerModel.change.  # (B, B, H)
+        change: PlayerModel.change of requests.  # (Q, Q, H)
         persistent: whether commands never change.
         begin: the first node.
         end: the node after the last.
-        copies: values.  # (copies, N, H + 1, B)
+        copies: values.  # (copies, N, H + 1, Q)
         old: the copy gone on from.
         new: the copy written to.
     """
     place, shares, rewards = policy
-    nodes, length, behaviours = copies.shape[1:]
-    states, stride, flat = (length - 1) * behaviours, length * behaviours, copies.reshape(-1)
+    nodes, length, requests = copies.shape[1:]
+    states, stride, flat = (length - 1) * requests, length * requests, copies.reshape(-1)
     row = np.empty(states, copies.dtype)
-    last, next_bin = end * stride if in_place else 0, np.uint32(behaviours)
+    last, next_bin = end * stride if in_place else 0, np.uint32(requests)
     from_old, from_new = np.uint32(old * nodes * stride), np.uint32(new * nodes * stride)
     for node in range(end - 1, begin - 1, -1):
         known, states_here = (node + 1) * stride, slice(node * states, (node + 1) * states)
@@ -249,32 +264,33 @@ def evaluate(
 
 @numba.njit(cache=True, nogil=True)
 def _write_row(row: NDArray, change: NDArray, persistent: bool, copies: NDArray, new: int, node: int) -> None:
-    """Write what the player model expects of a node's values V, in ``row`` (H B,): W = P V."""
-    headings, behaviours = copies.shape[2] - 1, copies.shape[3]
+    """Write what the player model expects of a node's values V, in ``row`` (H Q,): W = P V."""
+    headings, requests = copies.shape[2] - 1, copies.shape[3]
     if not persistent:
         _expect(row, change)
     values = copies[new, node].reshape(-1)
     for at in range(len(row)):
         values[at] = row[at]
-    for wanted in range(behaviours):
-        values[headings * behaviours + wanted] = row[wanted]
+    for wanted in range(requests):
+        values[headings * requests + wanted] = row[wanted]
 
 
 @numba.njit(cache=True, nogil=True)
 def _expect(row: NDArray, change: NDArray) -> None:
-    """Put the sums over behaviours and jumps of change V in the place of V.  # (H B,), (B, B, H)"""
-    behaviours, headings = change.shape[0], change.shape[2]
-    values, expected = np.empty((behaviours, 2 * headings), row.dtype), np.zeros(headings, row.dtype)
+    """Put the sums over requests and jumps of change V in the place of V.  # (H Q,), (Q, Q, H)"""
+    requests, headings = change.shape[0], change.shape[2]
+    values, expected = np.empty((requests, 2 * headings), row.dtype), np.zeros(headings, row.dtype)
     for at in range(len(row)):
-        h, then = at // behaviours, at % behaviours
+        h, then = at // requests, at % requests
         values[then, h] = values[then, h + headings] = row[at]
-    for wanted in range(behaviours):
+    for wanted in range(requests):
         expected[:] = 0.0
-        for then in range(behaviours):
+        for then in range(requests):
             for jump in range(headings):
                 likely, after = change[wanted, then, jump], values[then, jump : jump + headings]
-                for h in range(headings):
-                    expected[h] += likely * after[h]
+                if likely != 0.0:
+                    for h in range(headings):
+                        expected[h] += likely * after[h]
         # one by one: the message that Numba has ready for slices of another length takes seconds to compile
         for h in range(headings):
-            row[h * behaviours + wanted] = expected[h]
+            row[h * requests + wanted] = expected[h]

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from footwork.errors import InputError
+
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help answers at once
     from footwork.motion.task import SteeringTask
 
@@ -24,6 +26,11 @@ class TaskOptions:
         warp_levels: Among how many extra turns the policy chooses, an odd number.
         heading_bins: At how many headings the policy is tabulated.
         segment_ticks: For how many ticks a decision holds.
+        speed_levels: For how many speeds of walk and of run the policy is solved, spread over those that the frames
+            show; between them it interpolates. With none, no speed can be asked for.
+        speeds: Speeds of a behaviour in m/s in place of those, such as walk=0.8,1.2,1.6; may be given for each.
+        speed_sigma: How far off a speed may be, as a part of it or of 1 m/s where that is slower.
+        speed_weight: The part of control that hangs on the speed where one is asked for.
     """
 
     discount: float = 0.98
@@ -35,9 +42,13 @@ class TaskOptions:
     warp_levels: int = 5
     heading_bins: int = 36
     segment_ticks: int = 1
+    speed_levels: int = 0
+    speeds: tuple[str, ...] = ()
+    speed_sigma: float = 0.1
+    speed_weight: float = 0.75
 
     def task(self) -> SteeringTask:
-        """The steering task.
+        """The steering task, but for ``speed_levels``: which those are only the frames can tell.
 
         Raises:
             InputError: for what no task can have.
@@ -53,4 +64,16 @@ class TaskOptions:
             warp_share={"stop": self.warp_stop, "walk": 1.0, "run": 1.0, "jump": self.warp_jump},
             warp_levels=self.warp_levels,
             segment_ticks=self.segment_ticks,
+            speeds=dict(_levels(text) for text in self.speeds),
+            speed_sigma=self.speed_sigma,
+            speed_weight=self.speed_weight,
         )
+
+
+def _levels(text: str) -> tuple[str, tuple[float, ...]]:
+    """A behaviour and its speeds from ``behaviour=speed,speed...``."""
+    behaviour, _, speeds = text.partition("=")
+    try:
+        return behaviour, tuple(float(speed) for speed in speeds.split(","))
+    except ValueError:
+        raise InputError(f"{text!r}, expected such as walk=0.8,1.2,1.6", "--speeds") from None

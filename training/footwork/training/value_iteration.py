@@ -37,7 +37,7 @@ class Solution:
     """The values that value iteration came to.
 
     Args:
-        values: of commands expected at the next tick, in the precision that they were found in.  # (N, B, H)
+        values: of commands expected at the next tick, in the precision that they were found in.  # (N, Q, H)
         residual: the largest change of any value in the last greedy sweep, whose result they are.
         sweeps: how many sweeps were made, of both kinds.
         improvements: how many of them were greedy.
@@ -60,7 +60,7 @@ def solve(
     max_sweeps: int = MAX_SWEEPS,
     progress: Callable[[float], None] | None = None,
 ) -> PolicyTable:
-    """The table of W = P V, where V(n, b, h) = max over actions of the action's ``lookahead.arrival_value``.
+    """The table of W = P V, where V(n, q, h) = max over actions of the action's ``lookahead.arrival_value``.
 
     The table's residual is that of its float32 values, found in float64 by the lookahead that controllers use.
 
