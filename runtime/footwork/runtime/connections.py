@@ -72,6 +72,8 @@ class Connections:
         self.events = watched.get_monitor_socket(zmq.EVENT_ACCEPTED | zmq.EVENT_DISCONNECTED)
         self._by_descriptor: dict[int, Connection] = {}
         self._by_peer: dict[bytes, Connection] = {}
+        self._gone: list[bytes] = []
+        self._gone_before: list[bytes] = []
         self._next = 0
         self._told = now_ns() - 2 * SECOND
         self.cut = 0
@@ -97,7 +99,7 @@ class Connections:
             self.follow()
         connection = self._by_descriptor.get(descriptor)
         if connection is not None:
-            self._by_peer.pop(connection.peer, None)
+            self._part(connection)
             connection.peer, connection.heard = peer, True
             self._by_peer[peer] = connection
 
@@ -128,7 +130,16 @@ class Connections:
     def _forget(self, descriptor: int) -> None:
         connection = self._by_descriptor.pop(descriptor, None)
         if connection is not None:
-            self._by_peer.pop(connection.peer, None)
+            self._part(connection)
+
+    def _part(self, connection: Connection) -> None:
+        if self._by_peer.pop(connection.peer, None) is not None:
+            self._gone.append(connection.peer)
+
+    def gone(self) -> list[bytes]:
+        """Peers whose connection was gone at the last call already, so that their last messages have been taken."""
+        told, self._gone_before, self._gone = self._gone_before, self._gone, []
+        return told
 
     def look(self) -> None:
         """Cut those that are silent or pile up bytes; some at a time, the others at later calls."""

@@ -132,6 +132,10 @@ class Router:
         """Cut connections that are silent or pile up bytes; to be called every tick or so."""
         self.connections.look()
 
+    def gone(self) -> list[bytes]:
+        """Peers that are gone and whose messages have been taken, as far as it is known; each is told once."""
+        return self.connections.gone()
+
     @property
     def denied(self) -> int:
         """How many were turned away for their key, or for having none."""

@@ -269,7 +269,7 @@ class Server:
                 renewed = self.pulse = now_ns()
                 self._host.count_anew()
                 self._host.end_overdue(renewed)
-                self._router.look()
+                self._look_around()
                 self._hand_over()
 
     def _note(self, nanoseconds: int) -> None:
@@ -322,6 +322,12 @@ class Server:
         self._delivery.forget(peer)
         self._host.lose(peer, now_ns())
 
+    def _look_around(self) -> None:
+        """Cut connections that misbehave, lose sessions whose connection is gone."""
+        self._router.look()
+        for peer in self._router.gone():
+            self._lose(peer)
+
     def _hand_over(self) -> None:
         """Let the bundle that waits to be served take over."""
         if self._succession is not None:
@@ -335,7 +341,7 @@ class Server:
             log.info("bundle %s is served from now on", self.simulation.bundle.digest[:12])
 
     def _tidy(self) -> None:
-        self._router.look()
+        self._look_around()
         self._hand_over()
         if self.ticks % TICK_RATE == 0:
             collect_young()
