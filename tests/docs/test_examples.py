@@ -2,8 +2,10 @@
 
 import os
 import re
+import signal
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -23,10 +25,23 @@ def environment(cache: Path) -> dict[str, str]:
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 def test_the_examples_of_a_document_run(document, tmp_path):
     for language, code in BLOCK.findall(document.read_text()):
-        done = subprocess.run(
-            [*RUN[language], code], cwd=tmp_path, env=environment(tmp_path), capture_output=True, text=True, check=False
+        status, said = run([*RUN[language], code], tmp_path)
+        assert status == 0, f"{document.name}:\n{code}\n{said}"
+
+
+def run(command: list[str], folder: Path) -> tuple[int, str]:
+    """The exit status of a block and what it said; nothing that it started in the background outlives it."""
+    said = folder / "said.txt"
+    with said.open("w") as into:
+        shell = subprocess.Popen(
+            command, cwd=folder, env=environment(folder), stdout=into, stderr=into, start_new_session=True
         )
-        assert done.returncode == 0, f"{document.name}:\n{code}\n{done.stderr}"
+        try:
+            return shell.wait(), said.read_text(errors="replace")
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(shell.pid, signal.SIGKILL)
+            shell.wait()
 
 
 def test_there_are_examples_to_run():
