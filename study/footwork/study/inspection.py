@@ -14,6 +14,7 @@ from footwork.motion.table import PolicyTable
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
 from footwork.study.graph_report import graph_report
 from footwork.study.responsiveness import responsiveness
+from footwork.study.speed_response import speed_response
 from footwork.training.state_report import state_report
 
 
@@ -24,7 +25,8 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
     in it, and of those pairs whose frames it keeps, and the mean number of edges from a node. Seconds between captured
     frames are ``transition_time``; those to and between kinds of motion are given for labels and for behaviours
     (``graph_report``). ``tour`` is a best path through all labels. ``responsiveness`` is that of the "steering" table,
-    None without one. A state-annotated graph has ``segments``, ``states`` and ``at_once`` too (``state_report``).
+    with ``speeds`` where some can be asked for (``speed_response``), None without one. A state-annotated graph has
+    ``segments``, ``states`` and ``at_once`` too (``state_report``).
     """
     graph = bundle.graph
     sizes = {"graph": sum(getattr(graph, name).nbytes for name in ARRAYS)}
@@ -52,7 +54,9 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
 
 
 def _responsiveness(graph: MotionGraph, table: PolicyTable) -> dict[str, Any]:
-    return responsiveness(graph, SteeringController(graph, table), table.task.turn_limit(graph.behaviour))
+    controller = SteeringController(graph, table)
+    report = responsiveness(graph, controller, table.task.turn_limit(graph.behaviour))
+    return report | {"speeds": speed_response(graph, controller)} if controller.speeds else report
 
 
 def inspect_clips(clips: Sequence[Clip]) -> dict[str, Any]:
@@ -100,6 +104,9 @@ def _table(table: PolicyTable) -> dict[str, Any]:
         "discount": task.discount,
         "heading_sigma_deg": float(np.degrees(task.heading_sigma)),
         "smoothness_sigma": task.smoothness_sigma,
+        "speeds_m_s": {name: list(levels) for name, levels in task.speeds.items()},
+        "speed_sigma": task.speed_sigma,
+        "speed_weight": task.speed_weight,
         "sweeps": table.sweeps,
         "residual": table.residual,
         "converged": table.converged,
