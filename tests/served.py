@@ -7,6 +7,7 @@ from contextlib import contextmanager
 import zmq
 
 from footwork.protocol import messages as m
+from footwork.protocol.client import Client
 from footwork.protocol.codec import decode_from_server
 from footwork.runtime.server import Server
 from toy_bundle import toy_bundle
@@ -42,3 +43,22 @@ def stranger(server: Server) -> Iterator[zmq.Socket]:
 def answer(socket: zmq.Socket) -> m.FromServer:
     assert socket.poll(1000 * TIMEOUT), "no answer"
     return decode_from_server(socket.recv())
+
+
+def ticks(client: Client, count: int) -> list[int]:
+    """Tick numbers of the first frames of the next ``count`` ticks."""
+    poses = client.poses()
+    found = []
+    while len(found) < count:
+        pose = next(poses)
+        if pose.frame == 1:
+            found.append(pose.tick)
+    return found
+
+
+def pose_that_acknowledges(client: Client, sequence: int) -> m.Pose:
+    return next(pose for pose in client.poses() if pose.acknowledged >= sequence)
+
+
+def consecutive(numbers: list[int]) -> bool:
+    return numbers == list(range(numbers[0], numbers[0] + len(numbers)))
