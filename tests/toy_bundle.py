@@ -1,5 +1,7 @@
 """A small bundle made by hand, quick to build and to serve."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from footwork.motion.bundle import Bundle, sealed
@@ -24,3 +26,13 @@ def toy_bundle(**task) -> Bundle:
     values = np.zeros((graph.node_count, len(asked.requests.behaviour), asked.heading_bins), dtype=np.float32)
     table = PolicyTable(asked, exact(values), residual=0.0, sweeps=1, converged=True)
     return sealed(Bundle(graph, {"steering": table}, attribution=("toy motion, nobody's",)))
+
+
+def lively_bundle() -> Bundle:
+    """The same with worths at random, so that what is asked for matters, and with feet that stand now and then."""
+    toy, random = toy_bundle(), np.random.default_rng(7)
+    values = random.uniform(0.0, 5.0, toy.table("steering").values.shape).astype(np.float32)
+    contacts = np.arange(toy.graph.node_count)[:, None] // 5 % 3 != np.arange(2)
+    graph = replace(toy.graph, contacts=contacts)
+    table = replace(toy.table("steering"), coded=exact(values))
+    return sealed(Bundle(graph, {"steering": table}, attribution=toy.attribution))

@@ -14,9 +14,9 @@ from footwork.errors import InputError
 from footwork.runtime import recording as r
 from footwork.runtime.replay import Replay, start_recording
 from footwork.runtime.simulation import Simulation
-from toy_bundle import toy_bundle
+from toy_bundle import lively_bundle
 
-BUNDLE = toy_bundle()
+BUNDLE = lively_bundle()
 TICKS, FRAMES = 200, 2
 
 
@@ -106,7 +106,7 @@ def test_what_cannot_be_replayed_is_refused_in_one_line(tmp_path: Path):
         r.Spawned(1, 1, 0.0, 0.0, 0.0, "", 10**6),
         r.Restored(1, (0,), b"no"),
         r.Resimulated(1, (3,), 8, ()),
-        r.Resimulated(1, (0,), 8, ((0, 0, 0.0, 99, 99),)),
+        r.Resimulated(1, (0,), 8, ((0, 0, 0.0, 99, 99, None),)),
     ):
         records = (r.Spawned(1, 0, 0.0, 0.0, 0.0, "walk", -1), wrong)
         with pytest.raises(InputError, match=r"a\.footrec: record 2") as caught:

@@ -15,9 +15,9 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.world_errors import NoSuchCharacter
-from toy_bundle import toy_bundle
+from toy_bundle import lively_bundle
 
-BUNDLE = toy_bundle()
+BUNDLE = lively_bundle()
 
 
 class Asked(SteeringController):

@@ -8,9 +8,9 @@ from footwork.runtime.chosen_ticks import ChosenTicks
 from footwork.runtime.schedule import NOTHING, schedule_of
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.steered_ticks import SteeredTicks
-from toy_bundle import toy_bundle
+from toy_bundle import lively_bundle
 
-BUNDLE = toy_bundle()
+BUNDLE = lively_bundle()
 
 
 class Asked(SteeringController):
