@@ -18,12 +18,10 @@ import zmq
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
-from footwork.protocol.codec import encode
-from footwork.protocol.errors import MALFORMED, PeerError
-from footwork.protocol.messages import Bye, Welcome
+from footwork.protocol.messages import Welcome
 from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.collector import collect_young, held_collector
-from footwork.runtime.delivery import Delivery
+from footwork.runtime.exchange import Exchange
 from footwork.runtime.gallery import Gallery
 from footwork.runtime.histogram import Histogram
 from footwork.runtime.host import Host
@@ -31,7 +29,7 @@ from footwork.runtime.key_folder import KeyFolder
 from footwork.runtime.limits import Limits
 from footwork.runtime.recordings import Recordings
 from footwork.runtime.ring import Ring
-from footwork.runtime.router import DEFAULT_BIND, Router, Sent
+from footwork.runtime.router import DEFAULT_BIND, Router
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.succession import Succession
 
@@ -42,10 +40,6 @@ _MILLISECOND = 1_000_000
 _GRACE = 8
 """At a deadline, what has come in is taken for up to this part of a frame period, should there be so much of it."""
 _FAREWELL = 0.5
-_RETRY_MS = 2
-"""How often what the transport did not take is offered again."""
-_STRANGERS_WAIT = 10 * SECOND
-"""For how long a last message is offered to a peer whose session is over."""
 _LOCK_STEP_TIDY = 1000
 """Ticks in lock-step from one collection of garbage to the next, should there be no pause before."""
 
@@ -104,7 +98,7 @@ class Server:
         queue = max(rate // 2, 2 * limits.session_characters)
         self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
         self._gallery = None if spectate is None else self._open_gallery(spectate, limits)
-        self._delivery = Delivery(self._router.send, self._host.sessions.__contains__, limits.waiting_messages)
+        self._exchange = Exchange(self._host, self._router, limits)
         self._clock = FrameClock(rate, now_ns())
         self._stopping = False
         self._succession: tuple[Succession, Welcome] | None = None
@@ -158,7 +152,7 @@ class Server:
     def close(self) -> None:
         """Say bye to all and let go of the socket; ``run`` does so when it ends."""
         self._host.end_all("shutdown")
-        self._flush()
+        self._exchange.say()
         if self._gallery is not None:
             self._gallery.close()
         self._router.close(linger=_FAREWELL)
@@ -183,7 +177,7 @@ class Server:
             "sessions": self._host.sessions_begun,
             "resumed": self._host.resumed,
             "refused": self._host.refused,
-            "dropped": self._delivery.dropped,
+            "dropped": self._exchange.dropped,
             "cut": self._router.connections.cut,
             "denied": self._router.denied,
             "skipped_frames": self._clock.skipped,
@@ -223,19 +217,11 @@ class Server:
         while (left := deadline - now_ns()) > 0:
             if left < _MILLISECOND:
                 time.sleep(left / SECOND)
-            elif self._router.poll(min(left // _MILLISECOND, self._patience)):
-                self._drain(deadline)
-                self._flush()
-            self._retry()
-        self._drain(now_ns() + self._clock.period // _GRACE)
-
-    def _drain(self, end: int) -> None:
-        """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
-        while now_ns() < end and (parts := self._router.receive()) is not None:
-            if len(parts) == 2:
-                self._host.receive(parts[0], parts[1], now_ns())
-            else:
-                self._host.refuse(parts[0], PeerError(MALFORMED, "more or fewer parts than the one expected"))
+            elif self._router.poll(min(left // _MILLISECOND, self._exchange.patience)):
+                self._exchange.take(deadline)
+                self._exchange.say()
+            self._exchange.retry()
+        self._exchange.take(now_ns() + self._clock.period // _GRACE)
 
     def _show(self, frame: int) -> int:
         """Make the tick if its first frame is due, send the frame's poses; nanoseconds that took."""
@@ -244,12 +230,9 @@ class Server:
         if frame == 1:
             self._host.end_overdue(start)
             self._host.tick()
-        self._flush()
-        self._delivery.begin_frame()
-        for peer, pose in self._host.poses(frame):
-            if self._delivery.show(peer, pose) is Sent.GONE:
-                self._lose(peer)
-        self._retry()
+        self._exchange.say()
+        self._exchange.show(frame)
+        self._exchange.retry()
         self._let_watch(frame)
         done = now_ns()
         if frame == 1:
@@ -261,15 +244,15 @@ class Server:
         """Listen, and make each tick as soon as all have asked for it."""
         renewed = now_ns()
         while not (self._stopping or (until is not None and until())):
-            if self._router.poll(self._patience):
-                self._drain(now_ns() + SECOND // TICK_RATE)
+            if self._router.poll(self._exchange.patience):
+                self._exchange.take(now_ns() + SECOND // TICK_RATE)
             self._make_steps()
-            self._retry()
+            self._exchange.retry()
             if now_ns() - renewed > SECOND // TICK_RATE:
                 renewed = self.pulse = now_ns()
                 self._host.count_anew()
                 self._host.end_overdue(renewed)
-                self._look_around()
+                self._exchange.look_around()
                 self._hand_over()
 
     def _note(self, nanoseconds: int) -> None:
@@ -278,10 +261,10 @@ class Server:
         self.tick_seconds.add(nanoseconds / SECOND)
 
     def _make_steps(self) -> None:
-        self._flush()
+        self._exchange.say()
         start = now_ns()
         while not self._stopping and self._host.step():
-            self._flush()
+            self._exchange.say()
             self._let_watch(self.rate // TICK_RATE)
             done = now_ns()
             self._note(done - start)
@@ -290,43 +273,9 @@ class Server:
                 collect_young()
             start = now_ns()
 
-    @property
-    def _patience(self) -> int:
-        """How long to listen without looking elsewhere, milliseconds."""
-        return _RETRY_MS if self._delivery.waiting else 1000 // TICK_RATE
-
     def _let_watch(self, frame: int) -> None:
         if self._gallery is not None:
             self._gallery.show(self._host.simulation, self._host.welcome, frame)
-
-    def _flush(self) -> None:
-        for peer, data in self._host.outgoing():
-            sent = self._delivery.tell(peer, data)
-            if sent is Sent.GONE:
-                self._lose(peer)
-            elif sent is Sent.DROPPED and peer in self._host.sessions:
-                self._end_slow(peer)
-
-    def _end_slow(self, peer: bytes) -> None:
-        """End a session that reads nothing; its bye takes the place of what waits for it."""
-        self._host.forget(peer, "slow")
-        self._delivery.say_last(peer, encode(Bye(reason="slow")))
-
-    def _retry(self) -> None:
-        if self._delivery.waiting:
-            for peer in self._delivery.retry():
-                self._lose(peer)
-            self._delivery.forget_strangers(now_ns(), _STRANGERS_WAIT)
-
-    def _lose(self, peer: bytes) -> None:
-        self._delivery.forget(peer)
-        self._host.lose(peer, now_ns())
-
-    def _look_around(self) -> None:
-        """Cut connections that misbehave, lose sessions whose connection is gone."""
-        self._router.look()
-        for peer in self._router.gone():
-            self._lose(peer)
 
     def _hand_over(self) -> None:
         """Let the bundle that waits to be served take over."""
@@ -341,7 +290,7 @@ class Server:
             log.info("bundle %s is served from now on", self.simulation.bundle.digest[:12])
 
     def _tidy(self) -> None:
-        self._look_around()
+        self._exchange.look_around()
         self._hand_over()
         if self.ticks % TICK_RATE == 0:
             collect_young()

@@ -1,0 +1,92 @@
+"""What goes to and fro between the sessions of a host and the transport."""
+
+from footwork.motion.tick import TICK_RATE
+from footwork.protocol.codec import encode
+from footwork.protocol.errors import MALFORMED, PeerError
+from footwork.protocol.messages import Bye
+from footwork.runtime.clock import SECOND, now_ns
+from footwork.runtime.delivery import Delivery
+from footwork.runtime.host import Host
+from footwork.runtime.limits import Limits
+from footwork.runtime.router import Router, Sent
+
+_RETRY_MS = 2
+"""How often what the transport did not take is offered again."""
+_STRANGERS_WAIT = 10 * SECOND
+"""For how long a last message is offered to a peer whose session is over."""
+
+
+class Exchange:
+    """Takes messages to a host and brings what it has to say to its peers.
+
+    Args:
+        host: whose sessions they are.
+        router: the transport.
+        limits: how much may wait for a session that does not read.
+    """
+
+    def __init__(self, host: Host, router: Router, limits: Limits) -> None:
+        self._host = host
+        self._router = router
+        self._delivery = Delivery(router.send, host.sessions.__contains__, limits.waiting_messages)
+
+    @property
+    def dropped(self) -> int:
+        """Poses that were dropped for clients which read too slowly."""
+        return self._delivery.dropped
+
+    @property
+    def patience(self) -> int:
+        """How long to listen without looking elsewhere, milliseconds."""
+        return _RETRY_MS if self._delivery.waiting else 1000 // TICK_RATE
+
+    @property
+    def waiting(self) -> bool:
+        """Whether anything waits for a peer."""
+        return bool(self._delivery.waiting)
+
+    def take(self, end: int) -> None:
+        """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
+        while now_ns() < end and (parts := self._router.receive()) is not None:
+            if len(parts) == 2:
+                self._host.receive(parts[0], parts[1], now_ns())
+            else:
+                self._host.refuse(parts[0], PeerError(MALFORMED, "more or fewer parts than the one expected"))
+
+    def say(self) -> None:
+        """Hand over what the host has to say."""
+        for peer, data in self._host.outgoing():
+            sent = self._delivery.tell(peer, data)
+            if sent is Sent.GONE:
+                self._lose(peer)
+            elif sent is Sent.DROPPED and peer in self._host.sessions:
+                self._end_slow(peer)
+
+    def show(self, frame: int) -> None:
+        """Hand over the poses of a shown frame."""
+        self._delivery.begin_frame()
+        for peer, pose in self._host.poses(frame):
+            if self._delivery.show(peer, pose) is Sent.GONE:
+                self._lose(peer)
+
+    def retry(self) -> None:
+        """Offer again what the transport did not take."""
+        if self._delivery.waiting:
+            for peer in self._delivery.retry():
+                self._lose(peer)
+            self._delivery.forget_strangers(now_ns(), _STRANGERS_WAIT)
+
+    def look_around(self) -> None:
+        """Cut connections that misbehave, lose sessions whose connection is gone."""
+        self._router.look()
+        for peer in self._router.gone():
+            self._lose(peer)
+
+    def _end_slow(self, peer: bytes) -> None:
+        """End a session that reads nothing; its bye takes the place of what waits for it."""
+        self._host.forget(peer, "slow")
+        self._delivery.say_last(peer, encode(Bye(reason="slow")))
+
+    def _lose(self, peer: bytes) -> None:
+        self._delivery.forget(peer)
+        self._host.lose(peer, now_ns())
