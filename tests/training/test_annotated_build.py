@@ -14,6 +14,7 @@ from footwork.motion import tensor_file
 from footwork.motion.annotation import NO_WAY
 from footwork.motion.bundle import decode_bundle, encode_bundle
 from footwork.motion.state_machine import State, StateMachine, read_state_machine
+from footwork.training import annotated_recipe
 from footwork.training.build import build_bundle
 from footwork.training.connectivity import largest_component
 from footwork.training.graph_options import GraphOptions
@@ -159,6 +160,13 @@ def test_a_machine_is_asked_for_where_there_is_one_alone():
         build_bundle(motions, GraphOptions(), machine=FIGHTING)
     with pytest.raises(InputError, match="--mu: an annotated graph has no such option"):
         GraphOptions(graph="annotated", mu=2.0)
+
+
+def test_more_ways_than_memory_has_room_for_are_refused(built, monkeypatch):
+    monkeypatch.setattr(annotated_recipe, "available_bytes", lambda: 32 * 100)
+    graph, notes = built[0].graph, built[0].annotation
+    with pytest.raises(InputError, match=r"states.locomotion: \d+ x \d+ ways to 'attack' at once, expected 100 at most"):
+        annotated_recipe.annotated(graph, FIGHTING, notes.state[notes.segment])
 
 
 def test_motions_without_an_attack_are_refused_before_the_work_begins():

@@ -17,6 +17,15 @@ FIGHT = StateMachine(
 )
 
 
+GO = StateMachine(
+    (
+        State("stand", ("stand",), ("stand", "go", "leap")),
+        State("go", ("go",), ("go", "stand")),
+        State("leap", ("leap",), ("go",)),
+    )
+)
+
+
 def links_of(count: int, ends: set[int], jumps: list[tuple[int, int]]) -> Links:
     natural = [(node, node + 1) for node in range(count - 1) if node not in ends]
     source, target = np.array(natural + jumps, dtype=np.int64).reshape(-1, 2).T
@@ -68,7 +77,7 @@ def graphs(draw):
     return np.array(state), links_of(count, ends, draw(st.lists(st.tuples(node, node), max_size=40)))
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(graphs())
 def test_without_handing_over_the_published_steps_leave_the_same(graph):
     state, links = graph
@@ -78,7 +87,7 @@ def test_without_handing_over_the_published_steps_leave_the_same(graph):
     np.testing.assert_array_equal(parts.state[left], state[left])
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(graphs())
 def test_what_is_left_hangs_together_as_a_whole_and_within_its_states(graph):
     state, links = graph
@@ -102,6 +111,35 @@ def test_a_wind_up_goes_to_the_strike_and_a_recovery_comes_from_it():
     published = lasting_parts(FIGHT, state, links, hand_over=False).state
     assert published.tolist() == [0] * 5 + [NO_STATE] * 6
     assert missing_states(FIGHT, published) == [1, 2]
+
+
+def test_between_standing_and_going_the_capture_keeps_its_starts_and_stops():
+    # 0-2 stand in a loop, 3 and 4 only start from it, 5-8 go in a loop, 9 only stops, 10 stands and leads back
+    state = np.array([0] * 5 + [1] * 5 + [0])
+    links = links_of(11, {10}, [(2, 0), (8, 6), (10, 0)])
+    parts = lasting_parts(GO, state, links)
+    assert parts.state.tolist() == [0] * 3 + [1] * 6 + [0] * 2
+    assert lasting_parts(GO, state, links, hand_over=False).state.tolist() in (
+        [0] * 3 + [NO_STATE] * 8,
+        [NO_STATE] * 11,
+    )
+
+
+@settings(max_examples=80, deadline=None)
+@given(graphs())
+def test_from_everywhere_in_a_state_all_of_its_part_is_reached(graph):
+    state, links = graph
+    parts = lasting_parts(GO, state, links)
+    left = set(np.flatnonzero(parts.state != NO_STATE).tolist())
+    kept = links.where(parts.links)
+    edges = list(zip(kept.source.tolist(), kept.target.tolist(), strict=True))
+    assert largest(left, edges) == left
+    for number in (0, 1):
+        own = {node for node in left if parts.state[node] == number}
+        inside = [(a, b) for a, b in edges if a in own and b in own]
+        core = largest(own, inside)
+        assert all(core <= reached(node, own, inside) for node in own)
+        assert bool(core) == bool(own)
 
 
 def test_a_stretch_between_two_kinds_of_strike_is_shared_where_it_can_be_left_and_entered():

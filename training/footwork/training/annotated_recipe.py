@@ -14,6 +14,7 @@ from footwork.motion.state_machine import NO_STATE, StateMachine
 from footwork.motion.task import SteeringTask
 from footwork.training.connectivity import least_threshold, restricted
 from footwork.training.graph_options import GraphOptions
+from footwork.training.memory import available_bytes
 from footwork.training.next_hops import next_hops
 from footwork.training.recipe import Built
 from footwork.training.stages import Stages
@@ -23,6 +24,7 @@ from footwork.training.state_parts import Links, lasting_parts, missing_states, 
 from footwork.training.state_report import state_report
 from footwork.training.stretches import stretches
 
+_BYTES_PER_WAY = 32  # in the search and in the tables
 _TRIED = 400  # thresholds, from the one asked for to that of all minima
 
 
@@ -69,15 +71,30 @@ def annotated(graph: MotionGraph, machine: StateMachine, state: NDArray) -> Anno
         graph: the graph.
         machine: the states.
         state: the number of each node's state.  # (N,)
+
+    Raises:
+        InputError: for more ways than memory has room for.
     """
     first = stretches(graph, state)
     of_segment = state[first[:-1]]
 
     def between(pair: tuple[int, int]) -> NextHops:
         rows, goals = np.flatnonzero(np.isin(of_segment, pair)), np.flatnonzero(of_segment == pair[1])
+        _check_room(machine, pair, len(rows), len(goals))
         return next_hops(graph, first, rows, goals)
 
     return Annotation(machine, first, of_segment, tuple(map(between, machine.at_once)))
+
+
+def _check_room(machine: StateMachine, pair: tuple[int, int], rows: int, goals: int) -> None:
+    """Raise InputError where the ways between two states would not fit into memory."""
+    room = available_bytes() // _BYTES_PER_WAY
+    if rows * goals > room:
+        there = machine.names[pair[1]]
+        problem = f"{rows} x {goals} ways to {there!r} at once, expected {room} at most in the memory left"
+        raise InputError(
+            f"{problem}: take {there!r} out of its 'at_once', or lower the threshold", machine.place(pair[0])
+        )
 
 
 def _outside(clips: Sequence[Clip], machine: StateMachine) -> dict[str, int]:

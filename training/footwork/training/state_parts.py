@@ -7,7 +7,8 @@ step may break what the one before made, so both are repeated until nothing chan
 They label whole files. Where a file has a guard before and after a strike, labelled as such, the last frames before the
 strike lead nowhere but into it and so are in no part of their own state's; deleting them would cut the strike off. So
 frames that only lead out of their state's part, or back into it, count as the wind-up or the recovery of the state that
-the capture has after or before them, where that one is without transitions within it.
+the capture has after or before them. Between states that both have transitions within them, as from standing to
+walking, they are the entry of the later one: from an entry all of its state is reached, though it is not from there.
 """
 
 from typing import NamedTuple
@@ -78,7 +79,7 @@ def lasting_parts(machine: StateMachine, state: NDArray, links: Links, *, hand_o
         machine: the states.
         state: the number of each node's state by its label, NO_STATE for none.  # (N,)
         links: the edges.
-        hand_over: whether wind-ups and recoveries count as another state's; else they are deleted.
+        hand_over: whether wind-ups, recoveries and entries are told and kept; else they are deleted.
     """
     state = np.asarray(state, dtype=np.int16)
     steps = [("labelled", state)]
@@ -87,8 +88,7 @@ def lasting_parts(machine: StateMachine, state: NDArray, links: Links, *, hand_o
         state = connected = _connected(machine, state, links)
         steps.append(("connected", connected))
         for number in staying:
-            there = links.where(permitted(machine, state, links))
-            state = _within(state, number, there, staying if hand_over else None)
+            state = _within(state, number, links.where(permitted(machine, state, links)), staying, hand_over)
         if (state == connected).all():
             return Parts(state, permitted(machine, state, links), steps)
         steps.append(("within states", state))
@@ -109,34 +109,29 @@ def _connected(machine: StateMachine, state: NDArray, links: Links) -> NDArray[n
     return left
 
 
-def _within(state: NDArray, number: int, links: Links, staying: list[int] | None) -> NDArray[np.int16]:
+def _within(state: NDArray, number: int, links: Links, staying: list[int], hand_over: bool) -> NDArray[np.int16]:
     """States once of one of them only the largest strongly connected part of its own is left.  # (N,)
 
-    Wind-ups and recoveries go to states that are not in ``staying``; to none for None.
+    With ``hand_over`` its entries are left too, and wind-ups and recoveries go to the states they belong to: what only
+    leads out goes to the state that follows in the capture, what only leads back to the one before it, or stays where
+    characters stay in that one too. As states are handed on along the capture only, that comes to an end.
     """
     own = links.where((state[links.source] == number) & (state[links.target] == number))
     part = largest_component(len(state), own.source, own.target)
     left = np.where(state == number, NO_STATE, state)
-    if part.size and staying is not None:
+    if part.size and hand_over:
         follows = np.zeros(len(state), dtype=np.bool_)
         follows[links.source[links.natural]] = True
         out = np.setdiff1d(_reached(part[0], own.source, own.target, len(state)), part)
+        for node in out[follows[out]][::-1].tolist():
+            left[node] = left[node + 1]
         back = np.setdiff1d(_reached(part[0], own.target, own.source, len(state)), part)
-        _pass_on(left, out[::-1], follows[out[::-1]], 1, staying)
-        _pass_on(left, back, follows[back - 1], -1, staying)
+        left[back] = number if len(staying) > 1 else NO_STATE
+        for node in back[follows[back - 1]].tolist():
+            if left[node - 1] not in staying:
+                left[node] = left[node - 1]
     left[part] = number
     return left
-
-
-def _pass_on(left: NDArray, nodes: NDArray, joined: NDArray, step: int, staying: list[int]) -> None:
-    """Give each node the state of the one a step on in the capture, if it has one that is not of those to stay in.
-
-    Nodes come in such an order that states are handed on along the capture.
-    """
-    for node in nodes[joined].tolist():
-        beside = left[node + step]
-        if beside != NO_STATE and beside not in staying:
-            left[node] = beside
 
 
 def _reached(start: int, source: NDArray, target: NDArray, count: int) -> NDArray[np.intp]:
