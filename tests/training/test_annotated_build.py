@@ -165,7 +165,7 @@ def test_a_machine_is_asked_for_where_there_is_one_alone():
 def test_more_ways_than_memory_has_room_for_are_refused(built, monkeypatch):
     monkeypatch.setattr(annotated_recipe, "available_bytes", lambda: 32 * 100)
     graph, notes = built[0].graph, built[0].annotation
-    with pytest.raises(InputError, match=r"states.locomotion: \d+ x \d+ ways to 'attack' at once, expected 100 at most"):
+    with pytest.raises(InputError, match=r"states.locomotion: \d+ x \d+ ways to 'attack' at once, expected 100 at"):
         annotated_recipe.annotated(graph, FIGHTING, notes.state[notes.segment])
 
 
