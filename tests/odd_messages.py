@@ -81,7 +81,7 @@ def _noise(rng: random.Random, fields: Fields) -> bytes:
 
 
 def _packed(fields: Fields) -> bytes:
-    return msgpack.packb(fields)
+    return msgpack.Packer().pack(fields)
 
 
 _MUTATIONS: tuple[Callable[[random.Random, Fields], bytes], ...] = (

@@ -85,8 +85,6 @@ def test_a_speed_holds_until_the_next_behaviour_is_asked_for_and_not_while_a_one
     assert [speed_asked(orders, WALK) for _ in range(3)] == [1.1] * 3
     orders.give(0, Command(0.0, NONE, JUMP), shown=WALK)
     assert np.isnan(speed_asked(orders, WALK))
-    for _ in range(HOLD_TICKS + 1):
-        left = speed_asked(orders, JUMP)
-    assert left == 1.1
+    assert [speed_asked(orders, JUMP) for _ in range(HOLD_TICKS + 1)][-1] == 1.1
     orders.give(0, Command(0.0, RUN), shown=WALK)
     assert np.isnan(speed_asked(orders, WALK))

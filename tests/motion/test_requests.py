@@ -34,7 +34,7 @@ def test_requests_are_the_behaviours_and_then_their_levels():
     ],
 )
 def test_a_speed_lies_between_two_levels_or_at_the_nearest(behaviour, speed, within, low, high, share):
-    asked = asked_for(TASK.requests, np.int32(behaviour), speed)
+    asked = asked_for(TASK.requests, behaviour, speed)
     assert asked.behaviour == behaviour
     np.testing.assert_array_equal(asked.speed, within)
     assert (asked.low, asked.high) == (low, high)

@@ -69,7 +69,7 @@ def test_a_mistake_is_found_by_the_check_of_that_rule():
 
 
 def test_an_address_that_is_none_is_told_in_a_line():
-    with pytest.raises(SystemExit, match="address 'nonsense'.*expected such as tcp://"):
+    with pytest.raises(SystemExit, match=r"address 'nonsense'.*expected such as tcp://"):
         main("nonsense")
 
 

@@ -208,5 +208,8 @@ def _(effect: r.Restored, simulation: Simulation) -> None:
 
 @take_effect.register
 def _(effect: r.Resimulated, simulation: Simulation) -> None:
-    given = [(tick, slot, Command(heading, *whole)) for tick, slot, heading, *whole in effect.given]
+    given = [
+        (tick, slot, Command(heading, behaviour, one_shot, speed))
+        for tick, slot, heading, behaviour, one_shot, speed in effect.given
+    ]
     simulation.resimulate(effect.slots, effect.ticks, given)
