@@ -14,17 +14,20 @@ pty = pytest.importorskip("pty", reason="this system has no pseudo-terminals")
 PATIENCE = 90.0
 
 
-def interrupt_build(out: Path, stage: bytes, *options: str) -> tuple[int, str]:
+def interrupt_build(out: Path, stage: bytes, *options: str, motions: str = "locomotion") -> tuple[int, str]:
     """Interrupt a real build, watched at a terminal, once it shows a stage; its exit status and last words."""
-    command = [sys.executable, "-m", "footwork.cli.main", "build", "embedded:locomotion", *options, "--out", out]
+    command = [sys.executable, "-m", "footwork.cli.main", "build", f"embedded:{motions}", *options, "--out", out]
     shown, hidden = pty.openpty()
     terminal = os.environ | {"COLUMNS": "120", "TERM": "xterm"}
     with subprocess.Popen(command, stderr=hidden, env=terminal, preexec_fn=interruptible) as process:
         os.close(hidden)
-        read_until(shown, stage)
-        process.send_signal(signal.SIGINT)
-        words = read_until(shown, b"interrupted")
-        status = process.wait(PATIENCE)
+        try:
+            read_until(shown, stage)
+            process.send_signal(signal.SIGINT)
+            words = read_until(shown, b"interrupted")
+            status = process.wait(PATIENCE)
+        finally:
+            process.kill()
     os.close(shown)
     return status, words.decode().strip().splitlines()[-1].rpartition("\x1b[2K")[2]
 
@@ -53,7 +56,8 @@ def test_an_interrupted_build_leaves_nothing_behind(tmp_path):
 
 def test_an_interrupted_search_leaves_nothing_behind(tmp_path):
     options = ("--graph", "well-connected", "--weights", "1", "--pairing", "neighbours")
-    assert interrupt_build(tmp_path / "b.footwork", b"transitions", *options) == (130, "footwork: interrupted")
+    said = interrupt_build(tmp_path / "b.footwork", b"transitions", *options, motions="fighting")
+    assert said == (130, "footwork: interrupted")
     assert list(tmp_path.iterdir()) == []
 
 
