@@ -9,7 +9,7 @@ from footwork.motion.keys import behaviour_of_keys, heading_of_keys
 
 ALL = ("stop", "walk", "run", "jump")
 WORDS = Vocabulary(ALL, ALL)
-FAST_AND_SLOW = Vocabulary(ALL, ALL, {"run", "walk"})
+FAST_AND_SLOW = Vocabulary(ALL, ALL, {"run": (2.0, 4.0), "walk": (0.5, 1.5)})
 WALKER = Vocabulary(ALL, {"stop", "walk"})
 
 
@@ -90,3 +90,10 @@ def test_headings_must_be_finite(bad):
         WORDS.outright(bad, "walk")
     with pytest.raises(InputError, match="view_yaw"):
         WORDS.of_keys(bad, 1, 0, False)
+
+
+def test_keys_ask_for_the_middle_of_the_speeds_that_there_are():
+    assert FAST_AND_SLOW.of_keys(0.0, 1, 0, run=False).speed == 1.0
+    assert FAST_AND_SLOW.of_keys(0.0, 1, 0, run=True).speed == 3.0
+    assert FAST_AND_SLOW.of_keys(0.0, 0, 0, run=False).speed is None
+    assert WORDS.of_keys(0.0, 1, 0, run=False).speed is None

@@ -16,8 +16,9 @@ if TYPE_CHECKING:  # at run time they are imported where they are needed, so tha
     from footwork.motion.bundle import Bundle
     from footwork.training.dataset import Dataset
 
-# What makes a character answer at once, and still builds while one waits.
-THRESHOLD, BRIDGES, WARP, REWARD = 1.0, 2, math.radians(6.0), "sum"
+# What makes a character answer at once and go at a usual pace, and still builds while one waits.
+THRESHOLD, BRIDGES = 1.0, 2
+TASK = {"warp": math.radians(6.0), "reward": "sum", "speeds": {"walk": (1.2,), "run": (2.8,)}}
 
 
 def cache_folder() -> Path:
@@ -46,14 +47,14 @@ def _build(dataset: Dataset, path: Path, progress: Report) -> Bundle:
 
     path.parent.mkdir(parents=True, exist_ok=True)
     options = GraphOptions(threshold=THRESHOLD, mirror=True, bridges=BRIDGES)
-    bundle, _ = build_bundle(dataset, options, task=SteeringTask(warp=WARP, reward=REWARD), progress=progress)
+    bundle, _ = build_bundle(dataset, options, task=SteeringTask(**TASK), progress=progress)
     write_bundle(path, bundle)
     return bundle
 
 
 def _fingerprint(dataset: Dataset) -> str:
     """A name for what the bundle is made of: the motion, the version and how it is built."""
-    how = version("footwork"), THRESHOLD, BRIDGES, WARP, REWARD
+    how = version("footwork"), THRESHOLD, BRIDGES, TASK
     digest = hashlib.sha256(repr(how).encode())
     for clip in dataset.clips:
         for part in (clip.skeleton.offsets, clip.root_position, clip.rotations, clip.contacts):

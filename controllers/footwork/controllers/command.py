@@ -1,8 +1,9 @@
 """Commands: from held keys, or heading and behaviour outright, to what a controller is asked for."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from footwork.errors import InputError
 from footwork.motion.keys import behaviour_of_keys, heading_of_keys
@@ -48,12 +49,18 @@ class Vocabulary:
     Args:
         behaviours: all that commands number, in order (``MotionGraph.behaviours``).
         present: those that some frame shows (``SteeringController.present``).
-        speeds: those that take a speed (``SteeringController.speeds``).
+        speeds: the slowest and the fastest, m/s, of those that take a speed (``SteeringController.speeds``).
     """
 
-    def __init__(self, behaviours: tuple[str, ...], present: Collection[str], speeds: Collection[str] = ()) -> None:
+    def __init__(
+        self,
+        behaviours: tuple[str, ...],
+        present: Collection[str],
+        speeds: Mapping[str, tuple[float, float]] = MappingProxyType({}),
+    ) -> None:
         self.present = tuple(name for name in behaviours if name in present)
         self.with_speed = tuple(name for name in self.present if name in speeds)
+        self._usual = {name: 0.5 * sum(speeds[name]) for name in self.with_speed}
         self._index = {name: index for index, name in enumerate(behaviours) if name in present}
         self._numbers = {NONE, *self._index.values()}
 
@@ -73,15 +80,19 @@ class Vocabulary:
 
         Raises:
             UnknownBehaviour: for a behaviour that no frame shows.
-            InputError: for a heading that is not finite.
+            InputError: for a heading that is not finite, or a speed that is below 0 or not finite.
         """
         if command.behaviour not in self._numbers or command.one_shot not in self._numbers:
             problem = f"behaviours {command.behaviour} and {command.one_shot}, expected among {sorted(self._numbers)}"
             raise UnknownBehaviour(problem, "command")
         _require_finite(command.heading, "heading")
+        if command.speed is not None:
+            _require_speed(command.speed)
 
     def of_keys(self, view_yaw: float, forward: float, strafe: float, run: bool, one_shot: str = "") -> Command:
         """The command of held keys; ``one_shot`` names the behaviour whose key is held, such as jump.
+
+        Behaviours that take a speed are asked for at the middle of theirs.
 
         Raises:
             UnknownBehaviour: for a behaviour that no frame shows.
@@ -89,8 +100,9 @@ class Vocabulary:
         """
         _require_finite(view_yaw, "view_yaw")
         once = self.index(one_shot) if one_shot else NONE
-        lasting = self.index(behaviour_of_keys(forward, strafe, run, self.present))
-        return Command(float(heading_of_keys(view_yaw, forward, strafe)), lasting, once)
+        lasting = behaviour_of_keys(forward, strafe, run, self.present)
+        heading = float(heading_of_keys(view_yaw, forward, strafe))
+        return Command(heading, self.index(lasting), once, self._usual.get(lasting))
 
     def outright(self, heading: float, behaviour: str, speed: float | None = None) -> Command:
         """The command for a heading and a behaviour, at a speed in m/s where one is given.
@@ -110,8 +122,7 @@ class Vocabulary:
         return Command(heading, NONE, index) if behaviour in ONE_SHOT else Command(heading, index, speed=speed)
 
     def _check_speed(self, behaviour: str, speed: float) -> None:
-        if not 0.0 <= speed < math.inf:
-            raise InputError(f"speed is {speed}, expected a finite number of m/s from 0 on", "command")
+        _require_speed(speed)
         if behaviour not in self.with_speed:
             takers = ", ".join(self.with_speed) or "none"
             raise UnknownSpeed(f"{behaviour!r} takes no speed, of its behaviours {takers} do", "command")
@@ -120,3 +131,8 @@ class Vocabulary:
 def _require_finite(value: float, name: str) -> None:
     if not math.isfinite(value):
         raise InputError(f"{name} is {value}, expected a finite number of radians", "command")
+
+
+def _require_speed(speed: float) -> None:
+    if not 0.0 <= speed < math.inf:
+        raise InputError(f"speed is {speed}, expected a finite number of m/s from 0 on", "command")
