@@ -85,3 +85,15 @@ def test_a_place_that_cannot_be_bound_is_refused_and_frees_the_servers_own():
     server.close()
     with pytest.raises(LocalError, match="expected such as"):
         Spectator("nonsense")
+
+
+def test_what_a_spectator_says_takes_nothing_from_the_others(server):
+    with Client(server.address) as client, zmq.Context.instance().socket(zmq.XSUB) as talker:
+        client.spawn(0)
+        with Spectator(server.gallery_address) as spectator:
+            talker.connect(server.gallery_address)
+            for said in (b"", b"nothing", b"\2"):
+                talker.send(said)
+            poses = spectator.poses()
+            first = next(poses)
+            assert next(pose for pose in poses if pose.tick > first.tick + 5)

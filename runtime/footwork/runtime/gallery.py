@@ -38,8 +38,8 @@ class Gallery:
 
     def __init__(self, socket: zmq.Socket, bind: str, *, queue: int, most: int) -> None:
         self._socket = socket
-        self._topics = 0
         self._scene_due = 0
+        self._scene: Welcome | None = None
         options = {zmq.SNDHWM: queue, zmq.MAXMSGSIZE: _TOPIC_BYTES, zmq.IPV6: is_ipv6(bind), zmq.TCP_KEEPALIVE: 1}
         for option, value in options.items():
             socket.set(option, value)
@@ -65,17 +65,17 @@ class Gallery:
 
     @property
     def watched(self) -> bool:
-        """Whether anybody subscribes to anything."""
+        """Whether anybody is connected; what they say tells nothing, as an XSUB socket can send anything."""
         self._connections.look()
         for _ in range(_SUBSCRIPTIONS_AT_ONCE):
             try:
-                self._topics += 1 if self._socket.recv(zmq.NOBLOCK)[:1] == b"\x01" else -1
+                self._socket.recv(zmq.NOBLOCK)
             except zmq.Again:
                 break
-        return self._topics > 0
+        return len(self._connections) > 0
 
     def show(self, simulation: Simulation, welcome: Welcome, frame: int) -> None:
-        """Publish a shown frame of the tick last made; once a second also what the scene is made of.
+        """Publish a shown frame of the tick last made; what the scene is made of once a second, and when it changes.
 
         Args:
             simulation: whose characters are shown; their slots are their public numbers.
@@ -85,8 +85,8 @@ class Gallery:
         if not self.watched:
             return
         tick = simulation.tick
-        if tick >= self._scene_due:
-            self._scene_due = tick + TICK_RATE
+        if tick >= self._scene_due or welcome is not self._scene:
+            self._scene, self._scene_due = welcome, tick + TICK_RATE
             self._publish(SCENE_TOPIC, encode(replace(welcome, tick=tick)))
         shown = simulation.show(frame * TICK_RATE / welcome.frame_rate)
         for slot in np.flatnonzero(simulation.world.active).tolist():
