@@ -14,6 +14,7 @@ from footwork.errors import InputError
 from footwork.runtime.recorder import Recorder, new_recording
 from footwork.runtime.recording import SUFFIX, Commanded, State, read_recording
 from footwork.runtime.replay import Replay, start_recording
+from footwork.runtime.server import Server
 from footwork.runtime.simulation import Simulation
 from toy_bundle import toy_bundle
 
@@ -130,3 +131,9 @@ def test_a_disk_that_is_too_slow_ends_the_recording(tmp_path: Path, monkeypatch:
     simulation.end_recording()
     recorder.wait()
     assert all(isinstance(record, Commanded | State) for record in read_recording(path).records[1:])
+
+
+def test_a_server_that_cannot_be_leaves_no_recording(tmp_path: Path):
+    with pytest.raises(InputError, match="cannot bind"):
+        Server(BUNDLE, bind="tcp://127.0.0.1:99999", record=tmp_path)
+    assert not list(tmp_path.iterdir())

@@ -83,17 +83,14 @@ class Server:
             raise InputError(f"{rate} frames a second, expected one of {RATES}", "rate")
         limits = limits or Limits()
         self.rate = rate
-        self.ticks = 0
-        self.late_ticks = 0
+        self.ticks = self.late_ticks = self.reloads = 0
         self.tick_us = Ring()
         self.lateness_us = Ring()
         self.tick_seconds = Histogram()
-        self.reloads = 0
         self.pulse = now_ns()
         self.simulate = partial(Simulation, capacity=limits.characters, inertialise=inertialise)
         self._host = Host(self.simulate(bundle), rate, limits, lockstep=lockstep)
         self._recordings = Recordings(record, rate)
-        self._recordings.begin(self.simulation)
         # Half a second of one character's poses, but no fewer than two frames of all that a session may have.
         queue = max(rate // 2, 2 * limits.session_characters)
         self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
@@ -103,6 +100,11 @@ class Server:
         self._stopping = False
         self._succession: tuple[Succession, Welcome] | None = None
         self._ended = threading.Event()
+        try:
+            self._recordings.begin(self.simulation)
+        except InputError:
+            self.close()
+            raise
 
     @property
     def address(self) -> str:
