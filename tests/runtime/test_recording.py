@@ -86,6 +86,7 @@ def test_files_that_are_none_are_refused_in_one_line(tmp_path: Path):
     [
         ((r.State(70, bytes(16)), r.State(60, bytes(16))), "tick 60 after tick 70"),
         ((r.State(0, bytes(16)), r.State(10**9, bytes(16))), "tick 1000000000 after tick 0"),
+        ((r.Removed(0, 0), r.State(10**9, bytes(16))), "record 1 is for tick 0"),
         ((r.End(3), r.End(4)), "tick 4 after tick 3"),
         ((r.State(0, b"short"),), "record 1"),
         ((r.Corrected(1, 0, float("nan"), 0.0, 0.0),), "record 1"),

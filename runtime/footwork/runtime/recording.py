@@ -241,13 +241,14 @@ class _Version(Struct):
 
 
 def _records(frames: Iterator[memoryview], where: str) -> Iterator[AnyRecord]:
-    tick, ended = -1, False  # a recording begins at any tick: a simulation may have taken over from another
+    tick, ended = -1, False  # a recording begins at any tick from 0 on: a simulation may have taken over from another
     for number, data in enumerate(frames, 1):
         try:
             record = _record_decoder.decode(data)
         except (msgspec.DecodeError, RecursionError) as error:
             raise InputError(f"damaged: record {number}: {error}", where) from None
-        if ended or not (tick == -1 or tick <= made_by(record) <= tick + LONGEST_GAP):
+        after = made_by(record)
+        if ended or after < max(tick, 0) or (tick >= 0 and after > tick + LONGEST_GAP):
             raise InputError(f"damaged: record {number} is for tick {record.tick} after tick {tick}", where)
-        tick, ended = made_by(record), isinstance(record, End)
+        tick, ended = after, isinstance(record, End)
         yield record
