@@ -4,7 +4,9 @@ import pytest
 
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server
-from talk import Talk, spawn, walk
+from footwork.runtime.simulation import Simulation
+from footwork.runtime.succession import Succession
+from talk import BUNDLE, LIMITS, Talk, spawn, walk
 
 
 @pytest.fixture
@@ -36,3 +38,12 @@ def test_changes_of_behaviour_and_transitions_are_told_to_those_who_ask(talk):
     taken = [(pose.tick, pose.behaviour) for pose in shown if pose.transition]
     assert taken
     assert [(event.tick, event.behaviour) for event in events(told, "transition")] == taken
+
+
+def test_what_a_character_does_is_told_anew_in_another_bundle(talk):
+    talk.open(b"a", events=("behaviour",))
+    talk.say(b"a", spawn(1, 0, behaviour="stop"))
+    talk.tick(b"a")
+    latter = Simulation(BUNDLE, LIMITS.characters)
+    talk.host.succeed(Succession(talk.host.simulation, latter), talk.host.welcome_for(latter))
+    assert [event.character for event in events(talk.tick(b"a"), "behaviour")] == [0]

@@ -18,6 +18,8 @@ from footwork.runtime.succession import Succession, nearest_nodes
 from served import serving
 from toy_bundle import toy_bundle
 
+PACES = {"walk": (1.0, 2.0)}
+
 
 def other_bundle():
     return sealed(replace(toy_bundle(), attribution=("another one",)))
@@ -96,7 +98,15 @@ def test_a_character_goes_on_at_its_place_in_its_pose_with_what_it_was_asked_for
     there = Succession(former, latter).move(slot)
     assert latter.world.node[there] == former.world.node[slot]
     np.testing.assert_array_equal(latter.world.place[there], former.world.place[slot])
-    assert latter.lasting(there) == (1.25, "walk")
+    assert latter.lasting(there) == (1.25, "walk", None)
+
+
+def test_a_speed_that_was_asked_for_is_asked_for_on_where_it_can_be():
+    former, slower, without = (Simulation(toy_bundle(speeds=speeds), 1) for speeds in (PACES, {"walk": (0.5, 1.0)}, {}))
+    slot = former.spawn(0.0, 0.0, 0.0)
+    former.give(slot, former.vocabulary.outright(0.5, "walk", 1.5))
+    assert slower.lasting(Succession(former, slower).move(slot)) == (0.5, "walk", 1.5)
+    assert without.lasting(Succession(former, without).move(slot)) == (0.5, "walk", None)
 
 
 def test_the_nearest_node_is_the_one_a_search_over_all_finds():

@@ -95,6 +95,22 @@ def test_resimulated_ticks_are_those_that_were_made():
     assert (shown(simulation, slots), simulation.tick) == (expected, tick)
 
 
+def test_commands_beyond_the_resimulated_ticks_are_refused_and_nothing_changes():
+    simulation = Simulation(BUNDLE, 1)
+    slot, before = simulation.spawn(0.0, 0.0, 0.5, "walk"), simulation.digest()
+    walk = simulation.vocabulary.outright(1.0, "walk")
+    for ticks, commands, problem in (
+        (-1, [], "-1 ticks, expected 0 to 3600"),
+        (3601, [], "3601 ticks"),
+        (8, [(-1, slot, walk)], "before tick -1, expected 0 to 7"),
+        (8, [(8, slot, walk)], "before tick 8, expected 0 to 7"),
+        (8, [(0, slot, replace(walk, speed=float("nan")))], "speed is nan"),
+    ):
+        with pytest.raises(InputError, match=problem):
+            simulation.resimulate([slot], ticks, commands)
+    assert simulation.digest() == before
+
+
 def test_a_blob_goes_on_alike_in_another_process():
     simulation = Simulation(BUNDLE, 2)
     slot = simulation.spawn(1.0, 2.0, 0.5, "walk")

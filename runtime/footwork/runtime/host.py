@@ -74,7 +74,7 @@ class Host:
         latter.tick = self.simulation.tick
         for session in self._roster.all:
             for character in session.characters.values():
-                character.slot = succession.move(character.slot)
+                character.slot, character.behaviour = succession.move(character.slot), None
         self.simulation, self.welcome = latter, welcome
         self._effects = Effects(latter, self.limits, self._make_room)
         for session in self.sessions.values():

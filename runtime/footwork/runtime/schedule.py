@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import Command
+from footwork.errors import InputError
+from footwork.runtime.recording import LONGEST_GAP
 
 
 class Schedule(NamedTuple):
@@ -38,6 +40,19 @@ def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
     heading = np.array([command.heading for _, _, command in ordered], dtype=np.float64)
     speed = np.array([command.asked_speed for _, _, command in ordered], dtype=np.float64)
     return Schedule(numbers[0], numbers[1], heading, numbers[2], numbers[3], speed)
+
+
+def require_within(ticks: int, given: Iterable[tuple[int, int, Command]]) -> None:
+    """Refuse a run that is too long to be recorded, and commands (tick, slot, command) that are not for its ticks.
+
+    Raises:
+        InputError: for such.
+    """
+    if not 0 <= ticks <= LONGEST_GAP:
+        raise InputError(f"{ticks} ticks, expected 0 to {LONGEST_GAP}", "resimulate")
+    for tick, slot, _ in given:
+        if not 0 <= tick < ticks:
+            raise InputError(f"a command to {slot} before tick {tick}, expected 0 to {ticks - 1}", "resimulate")
 
 
 def rows_of(schedule: Schedule) -> tuple[tuple, ...]:

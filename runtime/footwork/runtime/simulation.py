@@ -15,20 +15,10 @@ from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.task import ONE_SHOT
+from footwork.runtime import recording as r
 from footwork.runtime.pose_frames import PoseFrames
 from footwork.runtime.recorder import Recorder, state_digest
-from footwork.runtime.recording import (
-    STATE_TICKS,
-    Commanded,
-    Corrected,
-    Effect,
-    Removed,
-    Resimulated,
-    Restored,
-    Spawned,
-    Teleported,
-)
-from footwork.runtime.schedule import NOTHING, rows_of, schedule_of
+from footwork.runtime.schedule import NOTHING, require_within, rows_of, schedule_of
 from footwork.runtime.snapshot import Snapshots
 from footwork.runtime.ticks import ticks_of
 from footwork.runtime.warm import warm_kernels
@@ -86,8 +76,7 @@ class Simulation:
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self._orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
-        memory = self._controller.memory(capacity)
-        self._snapshots = Snapshots(self.world, self._orders, memory, belongs_to)
+        self._snapshots = Snapshots(self.world, self._orders, self._controller.memory(capacity), belongs_to)
         self._recorder: Recorder | None = None
         self._noted = False
 
@@ -117,23 +106,23 @@ class Simulation:
         slot = self.world.spawn(self._start[start] if node is None else node, x, z, yaw)
         self._controller.begin(slot)
         self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in ONE_SHOT else start))
-        self._record(Spawned, slot, float(x), float(z), float(yaw), behaviour, -1 if node is None else node)
+        self._record(r.Spawned, slot, float(x), float(z), float(yaw), behaviour, -1 if node is None else node)
         return slot
 
     def remove(self, slot: int) -> None:
         """Take a character out of the world."""
         self.world.remove(slot)
-        self._record(Removed, slot)
+        self._record(r.Removed, slot)
 
     def correct(self, slot: int, x: float, z: float, yaw: float) -> None:
         """Move a character's root, metres and radians; its motion goes on from there."""
         self.world.correct(slot, x, z, yaw)
-        self._record(Corrected, slot, float(x), float(z), float(yaw))
+        self._record(r.Corrected, slot, float(x), float(z), float(yaw))
 
     def teleport(self, slot: int, x: float, z: float, yaw: float) -> None:
         """Put a character elsewhere, metres and radians; no offset and no foot lock goes along."""
         self.world.teleport(slot, x, z, yaw)
-        self._record(Teleported, slot, float(x), float(z), float(yaw))
+        self._record(r.Teleported, slot, float(x), float(z), float(yaw))
 
     def give(self, slot: int, command: Command) -> None:
         """Put a command into force, from the next tick on.
@@ -141,22 +130,23 @@ class Simulation:
         Raises:
             NoSuchCharacter: for a slot that holds none.
             UnknownBehaviour: for a behaviour that the bundle lacks.
-            InputError: for a heading that is not finite.
+            InputError: for a heading that is not finite, or a speed that is below 0 or not finite.
         """
         self.world.require(slot)
         self.vocabulary.require(command)
         shown = self.world.graph.behaviour[self.world.node[slot]]
         self._orders.give(slot, command, int(shown))
-        self._record(Commanded, slot, float(command.heading), command.behaviour, command.one_shot, command.speed)
+        self._record(r.Commanded, slot, float(command.heading), command.behaviour, command.one_shot, command.speed)
 
     def stand(self, slot: int) -> None:
         """Let a character stop where it is, as far as the bundle lets it."""
         self.give(slot, self.vocabulary.outright(self.world.place[slot, 2].item(), self._idle))
 
-    def lasting(self, slot: int) -> tuple[float, str]:
-        """What a character is asked for until told otherwise: heading, radians, and behaviour."""
-        in_force = self._orders.in_force
-        return in_force.heading[slot].item(), self.world.graph.behaviours[in_force.lasting[slot]]
+    def lasting(self, slot: int) -> tuple[float, str, float | None]:
+        """What a character is asked for until told otherwise: heading, radians, behaviour, and speed, m/s, if any."""
+        given = self._orders.in_force
+        speed = None if np.isnan(given.speed[slot]) else given.speed[slot].item()
+        return given.heading[slot].item(), self.world.graph.behaviours[given.lasting[slot]], speed
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
@@ -177,7 +167,7 @@ class Simulation:
         self._ticks.make(self.world.slots, NOTHING, poses)
         self.tick += ticks
         self._noted = False
-        if self._recorder is not None and self.tick - self._recorder.state_tick >= STATE_TICKS:
+        if self._recorder is not None and self.tick - self._recorder.state_tick >= r.STATE_TICKS:
             self._record_state(self._recorder)
         return poses
 
@@ -204,7 +194,7 @@ class Simulation:
         """
         tick = self._snapshots.put(blob, self._rows(slots))
         self._noted = False
-        self._record(Restored, tuple(map(int, slots)), blob)
+        self._record(r.Restored, tuple(map(int, slots)), blob)
         return tick
 
     def resimulate(self, slots: Sequence[int], ticks: int, given: Iterable[tuple[int, int, Command]] = ()) -> None:
@@ -213,13 +203,15 @@ class Simulation:
         Args:
             slots: which.
             ticks: how many.
-            given: commands, each with the tick before which it comes into force, from 0, and its slot.
+            given: commands, each with the tick of these, from 0, before which it comes into force, and its slot.
 
         Raises:
             NoSuchCharacter: for a slot that holds none.
             UnknownBehaviour: for a command that the bundle cannot follow.
+            InputError: for more ticks than LONGEST_GAP, and for a command before or after them.
         """
         given, rows = list(given), self._rows(sorted(set(slots)))
+        require_within(ticks, given)
         for _, slot, command in given:
             self.world.require(slot)
             self.vocabulary.require(command)
@@ -227,7 +219,7 @@ class Simulation:
         self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
         self._noted = False
         if self._recorder is not None:
-            self._record(Resimulated, tuple(map(int, slots)), ticks, rows_of(schedule))
+            self._record(r.Resimulated, tuple(map(int, slots)), ticks, rows_of(schedule))
 
     def digest(self) -> bytes:
         """A digest of all that is remembered of all characters.  # 16 bytes"""
@@ -245,7 +237,7 @@ class Simulation:
             self._recorder.end(self.tick)
             self._recorder = None
 
-    def _record(self, kind: Callable[..., Effect], *fields: object) -> None:
+    def _record(self, kind: Callable[..., r.Effect], *fields: object) -> None:
         if self._recorder is not None:
             self._recorder.add(kind(self.tick + 1, *fields))
 

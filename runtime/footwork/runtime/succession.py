@@ -41,11 +41,12 @@ class Succession:
         """Let a character go on in the new simulation with what it was last asked for; returns its slot there."""
         former, latter = self.former, self.latter
         x, z, yaw = former.world.place[slot].tolist()
-        heading, behaviour = former.lasting(slot)
+        heading, behaviour, speed = former.lasting(slot)
         behaviour = behaviour if behaviour in latter.behaviours else ""
+        speed = speed if behaviour in latter.speeds else None
         there = latter.spawn(x, z, yaw, behaviour, node=int(self._nearest[former.world.node[slot]]))
         if behaviour:
-            latter.give(there, latter.vocabulary.outright(heading, behaviour))
+            latter.give(there, latter.vocabulary.outright(heading, behaviour, speed))
         return there
 
 
