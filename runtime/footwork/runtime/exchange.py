@@ -40,11 +40,6 @@ class Exchange:
         """How long to listen without looking elsewhere, milliseconds."""
         return _RETRY_MS if self._delivery.waiting else 1000 // TICK_RATE
 
-    @property
-    def waiting(self) -> bool:
-        """Whether anything waits for a peer."""
-        return bool(self._delivery.waiting)
-
     def take(self, end: int) -> None:
         """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
         while now_ns() < end and (parts := self._router.receive()) is not None:
