@@ -7,15 +7,18 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
+from footwork.controllers.command import Command
 from footwork.errors import InputError
 from footwork.runtime.recorder import Recorder, new_recording
-from footwork.runtime.recording import SUFFIX, Commanded, State, read_recording
+from footwork.runtime.recording import STATE_TICKS, SUFFIX, Commanded, Spawned, State, read_recording
 from footwork.runtime.replay import Replay, start_recording
 from footwork.runtime.server import Server
-from footwork.runtime.simulation import Simulation
+from footwork.runtime.simulation import LONGEST_PLAY, Simulation
 from toy_bundle import toy_bundle
 
 BUNDLE = toy_bundle()
@@ -137,3 +140,39 @@ def test_a_server_that_cannot_be_leaves_no_recording(tmp_path: Path):
     with pytest.raises(InputError, match="cannot bind"):
         Server(BUNDLE, bind="tcp://127.0.0.1:99999", record=tmp_path)
     assert not list(tmp_path.iterdir())
+
+
+def test_slots_and_commands_may_be_numbers_of_numpy(tmp_path: Path):
+    simulation = Simulation(BUNDLE, 2)
+    recorder = start_recording(simulation, tmp_path / "a.footrec", rate=60)
+    simulation.spawn(0.0, 0.0, 0.1)
+    slot: Any = simulation.world.slots[0]
+    stop: Any = np.int32(0)
+    simulation.give(slot, Command(np.float64(0.5), stop))
+    simulation.end_recording()
+    recorder.wait()
+    assert read_recording(recorder.path).records[2] == Commanded(1, 0, 0.5, 0, -1)
+
+
+def test_what_could_not_be_read_again_ends_the_recording_and_what_was_before_stays(tmp_path: Path, caplog):
+    simulation = Simulation(BUNDLE, 1)
+    recorder = start_recording(simulation, tmp_path / "a.footrec", rate=60)
+    slot = simulation.spawn(0.0, 0.0, 0.1)
+    simulation.correct(slot, 1e10, 0.0, 0.0)
+    simulation.end_recording()
+    recorder.wait()
+    assert recorder.errors == 1
+    assert "correct" in caplog.text
+    assert [type(record) for record in read_recording(recorder.path).records] == [State, Spawned]
+
+
+def test_so_many_ticks_at_once_that_a_recording_could_not_be_read_are_refused(tmp_path: Path):
+    simulation = Simulation(BUNDLE, 1)
+    recorder = start_recording(simulation, tmp_path / "a.footrec", rate=60)
+    with pytest.raises(InputError, match=f"expected at most {LONGEST_PLAY}"):
+        simulation.play(LONGEST_PLAY + 1, 0)
+    for ticks in (STATE_TICKS - 1, LONGEST_PLAY):
+        simulation.play(ticks, 0)
+    simulation.end_recording()
+    recorder.wait()
+    assert read_recording(recorder.path).whole

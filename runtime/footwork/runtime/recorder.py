@@ -14,7 +14,18 @@ from io import FileIO
 from pathlib import Path
 
 from footwork.errors import InputError
-from footwork.runtime.recording import MAGIC, SUFFIX, AnyRecord, Effect, End, Header, State, framed, made_by
+from footwork.runtime.recording import (
+    MAGIC,
+    SUFFIX,
+    AnyRecord,
+    Effect,
+    End,
+    Header,
+    State,
+    framed,
+    framed_soundly,
+    made_by,
+)
 
 log = logging.getLogger(__name__)
 
@@ -117,28 +128,32 @@ class Recorder:
                     pass
         except OSError as error:
             self._fail(error.strerror or str(error))
+        except InputError as error:
+            self._fail(str(error))
 
     def _write_some(self) -> bool:
         """Write what comes within ``FLUSH_SECONDS`` and bring it to the disk; whether there may be more."""
         end, more, pieces, tick = time.monotonic() + FLUSH_SECONDS, True, [], self.recorded
-        while more and (left := end - time.monotonic()) > 0.0:
-            try:
+        try:
+            while more and (left := end - time.monotonic()) > 0.0:
                 item = self._waiting.get(timeout=left)
-            except queue.Empty:
-                break
-            more = item is not None
-            if item is not None:
-                pieces.append(self._bytes_of(*item))
-                tick = made_by(item[0])
-        if pieces and not self._failed.is_set():
-            _write(self._file, b"".join(pieces))
-            os.fsync(self._file.fileno())
-            self.recorded = tick
+                more = item is not None
+                if item is not None:
+                    pieces.append(self._bytes_of(*item))
+                    tick = made_by(item[0])
+        except queue.Empty:
+            pass
+        finally:  # what came before a record that cannot be kept is kept
+            if pieces and not self._failed.is_set():
+                _write(self._file, b"".join(pieces))
+                os.fsync(self._file.fileno())
+                self.recorded = tick
         return more
 
     def _bytes_of(self, record: AnyRecord, slots: bytes, rows: bytes) -> bytes:
         self._written += _RECORD_BYTES + len(slots) + len(rows)
-        return framed(State(record.tick, state_digest(slots, rows)) if isinstance(record, State) else record)
+        state = isinstance(record, State)
+        return framed_soundly(State(record.tick, state_digest(slots, rows)) if state else record)
 
     def _fail(self, problem: str) -> None:
         self.errors += 1

@@ -10,6 +10,7 @@ import struct
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from operator import methodcaller
 from pathlib import Path
 from typing import Annotated
 
@@ -146,7 +147,7 @@ class End(Record, frozen=True, array_like=True, gc=False, tag="end"):
 
 Effect = Spawned | Commanded | Corrected | Teleported | Removed | Restored | Resimulated
 AnyRecord = Effect | State | End
-_encoder = msgspec.msgpack.Encoder()
+_encoder = msgspec.msgpack.Encoder(enc_hook=methodcaller("item"))  # numbers may be NumPy's
 _header_decoder = msgspec.msgpack.Decoder(Header)
 _record_decoder = msgspec.msgpack.Decoder(AnyRecord)
 
@@ -156,6 +157,22 @@ def framed(record: Header | AnyRecord) -> bytes:
     data = _encoder.encode(record)
     length = len(data).to_bytes(4, "little")
     return _FRAME.pack(length, zlib.crc32(length), zlib.crc32(data)) + data
+
+
+def framed_soundly(record: AnyRecord) -> bytes:
+    """``framed``, of a record that can be read again.
+
+    Raises:
+        InputError: for one with numbers that are out of bounds, and one that is too long.
+    """
+    data = framed(record)
+    try:
+        _record_decoder.decode(memoryview(data)[_FRAME.size :])
+    except msgspec.DecodeError as error:
+        raise InputError(f"cannot be recorded: {error}", type(record).__name__.lower()) from None
+    if len(data) - _FRAME.size > MOST_RECORD_BYTES:
+        raise InputError(f"is longer than {MOST_RECORD_BYTES} bytes", type(record).__name__.lower())
+    return data
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,6 +26,8 @@ from footwork.runtime.world import World
 
 STEERING = "steering"
 _IDLE = "stop"
+LONGEST_PLAY = r.LONGEST_GAP - r.STATE_TICKS
+"""Ticks that may be made at once while a recording is made."""
 
 
 class Simulation:
@@ -162,7 +164,12 @@ class Simulation:
         Returns:
             Place of joint 0, then local rotations joint by joint, of the characters by rising slot.
             # (ticks, frames, characters, 3 + 4 J)
+
+        Raises:
+            InputError: for more ticks than LONGEST_PLAY while a recording is made.
         """
+        if self._recorder is not None and ticks > LONGEST_PLAY:
+            raise InputError(f"{ticks} ticks, expected at most {LONGEST_PLAY} at once while recording", "play")
         poses = self._no_poses(ticks, frames, len(self.world.slots))
         self._ticks.make(self.world.slots, NOTHING, poses)
         self.tick += ticks
