@@ -86,7 +86,7 @@ def arrival_value(
     """
     reward = reward_of(control, smoothness, rules.additive, rules.weight)
     request, weight, worth = asked.low, 1.0 - asked.share, 0.0
-    # One call in a loop: with two of them the compiler no longer inlines this, and each action costs four times as much.
+    # One call in a loop: with two the compiler no longer inlines this, and each action costs four times as much.
     while True:
         worth += weight * interpolate(codes, lowest, step, there, request, heading)
         if request == asked.high:
