@@ -16,6 +16,7 @@ from footwork.controllers.command import Command
 from footwork.errors import InputError
 from footwork.runtime.recorder import Recorder, new_recording
 from footwork.runtime.recording import STATE_TICKS, SUFFIX, Commanded, Spawned, State, read_recording
+from footwork.runtime.recordings import Recordings
 from footwork.runtime.replay import Replay, start_recording
 from footwork.runtime.server import Server
 from footwork.runtime.simulation import LONGEST_PLAY, Simulation
@@ -176,3 +177,13 @@ def test_so_many_ticks_at_once_that_a_recording_could_not_be_read_are_refused(tm
     simulation.end_recording()
     recorder.wait()
     assert read_recording(recorder.path).whole
+
+
+def test_the_folder_of_recordings_is_made_or_refused_in_a_line(tmp_path):
+    Recordings(tmp_path / "new", 60)
+    assert (tmp_path / "new").is_dir()
+    (tmp_path / "file").write_bytes(b"")
+    with pytest.raises(InputError, match="File exists, expected a folder that recordings can be written to"):
+        Recordings(tmp_path / "file", 60)
+    with pytest.raises(InputError, match="No such file or directory, expected a folder"):
+        Recordings(tmp_path / "no" / "such", 60)

@@ -15,16 +15,16 @@ class Recordings:
     """Recordings under names of their own, made at the time they begin.
 
     Args:
-        folder: where they are kept; None for nowhere: nothing is recorded then.
+        folder: where they are kept, made where it is missing; None for nowhere: nothing is recorded then.
         rate: shown frames a second.
 
     Raises:
-        InputError: for a folder that is not there.
+        InputError: for a folder that cannot be made.
     """
 
     def __init__(self, folder: Path | None, rate: int) -> None:
-        if folder is not None and not folder.is_dir():
-            raise InputError("is no folder, expected one that recordings can be written to", folder)
+        if folder is not None:
+            _make(folder)
         self._folder, self._rate = folder, rate
         self._begun: list[Recorder] = []
         self._not_begun = 0
@@ -60,3 +60,11 @@ class Recordings:
     def names(self) -> list[str]:
         """The files."""
         return [str(recorder.path) for recorder in self._begun]
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        problem = f"{error.strerror}, expected a folder that recordings can be written to"
+        raise InputError(problem, folder) from None
