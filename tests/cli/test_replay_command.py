@@ -40,6 +40,14 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     return served(folder), folder / "toy.footwork"
 
 
+def test_a_server_that_cannot_tell_its_metrics_ends_the_recording_that_it_began(recorded, tmp_path: Path, capsys):
+    options = ("--bind", "tcp://127.0.0.1:0", "--record", tmp_path, "--metrics", "nonsense")
+    assert main(["serve", *map(str, (recorded[1], *options))]) == 2
+    assert "expected an address such as 127.0.0.1:9095" in capsys.readouterr().err
+    (begun,) = tmp_path.iterdir()
+    assert r.read_recording(begun).whole
+
+
 def test_what_a_server_recorded_is_replayed_and_agrees(recorded, capsys: pytest.CaptureFixture):
     path, bundle = recorded
     seen = []
@@ -80,4 +88,4 @@ def test_wrong_files_and_options_are_one_line(recorded, tmp_path: Path, capsys):
     ):
         assert main(["replay", *arguments]) == 2
         assert len(capsys.readouterr().err.splitlines()) == 1
-    assert main(["serve", str(bundle), "--record", str(tmp_path / "none")]) == 2
+    assert main(["serve", str(bundle), "--record", str(empty)]) == 2

@@ -1,5 +1,7 @@
 """Spectators of a live server."""
 
+import time
+
 import pytest
 import zmq
 
@@ -69,6 +71,19 @@ def test_who_piles_up_subscriptions_is_cut_and_the_others_watch_on(server):
                 pass
             assert server._gallery._connections.cut == 1
             assert next(poses).character == 0
+
+
+def test_in_lock_step_spectators_are_bounded_while_nobody_steps():
+    with serving(lockstep=True, spectate=ANYWHERE) as server, zmq.Context.instance().socket(zmq.SUB) as greedy:
+        greedy.set(zmq.RECONNECT_IVL, -1)
+        greedy.connect(server.gallery_address)
+        for number in range(4000):
+            greedy.subscribe(f"a topic of nobody's {number}")
+        end, gallery = time.monotonic() + 10.0, server._gallery
+        assert gallery is not None
+        while not gallery._connections.cut and time.monotonic() < end:
+            time.sleep(0.01)
+        assert gallery._connections.cut == 1
 
 
 def test_topics_are_no_beginnings_of_others():

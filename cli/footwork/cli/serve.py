@@ -17,6 +17,8 @@ from footwork.errors import InputError
 
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help loads no numerics
     from footwork.motion.bundle import Bundle
+    from footwork.runtime.monitoring import Monitoring
+    from footwork.runtime.server import Server
 
 Off = Parameter(negative=())
 
@@ -65,7 +67,6 @@ def serve(
     """
     from footwork.runtime.key_folder import KeyFolder
     from footwork.runtime.logs import logging_to_stderr
-    from footwork.runtime.monitoring import Monitoring
     from footwork.runtime.realtime import take_realtime
     from footwork.runtime.reload import Reloader
     from footwork.runtime.server import Server
@@ -88,7 +89,7 @@ def serve(
             record=record,
         )
         if metrics is not None:
-            held.enter_context(Monitoring(server, metrics))
+            held.enter_context(_monitored(server, metrics))
         reloader = held.enter_context(Reloader(server, bundle, read=read, watch=watch))
         tell = log if log_format is None else logging.getLogger(__name__).info
         for problem in take_realtime() if realtime else ():
@@ -100,6 +101,17 @@ def serve(
         end = math.inf if seconds is None else time.monotonic() + seconds
         server.run(until=lambda: time.monotonic() >= end)
     emit(server.summary(), json, f"{server.address}")
+
+
+def _monitored(server: Server, address: str) -> Monitoring:
+    """Health and metrics of a server; where they cannot be served, it ends what it began."""
+    from footwork.runtime.monitoring import Monitoring
+
+    try:
+        return Monitoring(server, address)
+    except InputError:
+        server.close()
+        raise
 
 
 def _read(path: Path) -> Bundle:

@@ -63,16 +63,14 @@ class Gallery:
             raise InputError(problem, address) from None
         return self._socket.get_string(zmq.LAST_ENDPOINT)
 
-    @property
-    def watched(self) -> bool:
-        """Whether anybody is connected; what they say tells nothing, as an XSUB socket can send anything."""
+    def look(self) -> None:
+        """Bound the connections, and pass over what they say: an XSUB socket can send anything."""
         self._connections.look()
         for _ in range(_SUBSCRIPTIONS_AT_ONCE):
             try:
                 self._socket.recv(zmq.NOBLOCK)
             except zmq.Again:
-                break
-        return len(self._connections) > 0
+                return
 
     def show(self, simulation: Simulation, welcome: Welcome, frame: int) -> None:
         """Publish a shown frame of the tick last made; what the scene is made of once a second, and when it changes.
@@ -82,7 +80,8 @@ class Gallery:
             welcome: what sessions are told of the scene.
             frame: 1, 2 ... frame_rate / 30.
         """
-        if not self.watched:
+        self.look()
+        if not len(self._connections):
             return
         tick = simulation.tick
         if tick >= self._scene_due or welcome is not self._scene:

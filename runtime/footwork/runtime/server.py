@@ -255,6 +255,8 @@ class Server:
                 self._host.count_anew()
                 self._host.end_overdue(renewed)
                 self._exchange.look_around()
+                if self._gallery is not None:
+                    self._gallery.look()
                 self._hand_over()
 
     def _note(self, nanoseconds: int) -> None:
