@@ -10,7 +10,6 @@ that is no refusal, a reply went to a peer that had said nothing, the honest cli
 import argparse
 import gc
 import json
-import os
 import random
 import sys
 import time
@@ -26,6 +25,7 @@ from footwork.runtime.host import Host
 from footwork.runtime.limits import Limits
 from footwork.runtime.simulation import Simulation
 from odd_messages import odd_message
+from support.machine import resident_bytes
 from toy_bundle import toy_bundle
 
 PEERS = [b"odd %d" % number for number in range(8)]
@@ -91,10 +91,10 @@ class Bench:
                     self.faults.append(f"the honest client's {sequence} was not taken")
 
 
-def resident_bytes() -> int:
-    """What this process holds in memory."""
+def without_garbage() -> int:
+    """Resident bytes after a collection."""
     gc.collect()
-    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    return resident_bytes()
 
 
 def run(messages: int, seed: int) -> dict[str, Any]:
@@ -104,8 +104,8 @@ def run(messages: int, seed: int) -> dict[str, Any]:
     for tick in range(ticks):
         bench.tick()
         if tick == ticks // 10:
-            early = resident_bytes()
-    seconds, growth = time.perf_counter() - began, resident_bytes() / early
+            early = without_garbage()
+    seconds, growth = time.perf_counter() - began, without_garbage() / early
     if growth > GROWTH:
         bench.faults.append(f"memory grew to {growth:.3f} times what it was after a tenth")
     return {

@@ -10,7 +10,6 @@ run in a process of their own.
 
 import argparse
 import json
-import multiprocessing
 import os
 import socket
 import sys
@@ -28,12 +27,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 from footwork.protocol.client import Client
 from footwork.runtime.server import Server
+from support.machine import resident_bytes
+from support.processes import PROCESSES
 from toy_bundle import toy_bundle
 
 GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\x00") + bytes(32)
 READY = b"\x04\x1c\x05READY\x0bSocket-Type\x00\x00\x00\x06DEALER"
 HELLO = b"\x00\x15\x82\xa4type\xa5hello\xa7version\x01"
-PROCESSES = multiprocessing.get_context("spawn")
 Address = tuple[str, int]
 
 
@@ -111,18 +111,13 @@ class Lateness:
         return {f"p{share:g}": round(float(np.percentile(values, share)), 1) for share in (50, 99, 100)}
 
 
-def memory_mb() -> float:
-    """Resident memory of this process."""
-    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 / 1e6
-
-
 def watch(client: Client, seconds: float) -> tuple[bool, float]:
     """Whether the client saw all ticks for so long, and how much memory grew at most."""
-    begun, most, ticks = memory_mb(), 0.0, []
+    begun, most, ticks = resident_bytes() / 1e6, 0.0, []
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         ticks.append(next(client.poses()).tick)
-        most = max(most, memory_mb() - begun)
+        most = max(most, resident_bytes() / 1e6 - begun)
     return set(np.diff(ticks)) <= {0, 1}, most
 
 

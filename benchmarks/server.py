@@ -14,7 +14,6 @@ Without a bundle it plays the tests' toy one, whose poses have the sizes of any 
 
 import argparse
 import json
-import multiprocessing
 import os
 import platform
 import random
@@ -34,21 +33,18 @@ from footwork.motion.bundle import Bundle, read_bundle
 from footwork.protocol import messages as m
 from footwork.protocol.client import Client
 from footwork.protocol.codec import encode
-from footwork.runtime.clock import SECOND, FrameClock, now_ns
-from footwork.runtime.ring import Ring
 from footwork.runtime.server import Server
+from support.processes import idle, in_process, lateness_shares
 from toy_bundle import toy_bundle
 
 TICK = 1.0 / 30.0
 AIM = 0.003
 ECHOES = 3000
-PROCESSES = multiprocessing.get_context("spawn")
 
 
-def shares(values: list[float] | Ring, *wanted: float) -> dict[str, float]:
-    """Percentiles by name, such as p99.9."""
-    look = values.percentile if isinstance(values, Ring) else lambda share: float(np.percentile(values, share))
-    return {f"p{share:g}": round(look(share), 3) for share in wanted}
+def shares(values: list[float], *wanted: float) -> dict[str, float]:
+    """Percentiles by name."""
+    return {f"p{share:g}": round(float(np.percentile(values, share)), 3) for share in wanted}
 
 
 def load(path: str) -> Bundle:
@@ -61,7 +57,7 @@ def serve(path: str, rate: int, lockstep: bool, pipe: Connection) -> None:
     server = Server(load(path), bind="tcp://127.0.0.1:0", rate=rate, lockstep=lockstep)
     pipe.send(server.address)
     server.run(until=pipe.poll)
-    pipe.send({**server.summary(), "lateness_us": shares(server.lateness_us, 50, 99, 99.9)})
+    pipe.send({**server.summary(), "lateness_us": lateness_shares(server.lateness_us)})
 
 
 def echo(question: int, answers: Sequence[int], pipe: Connection) -> None:
@@ -75,25 +71,6 @@ def echo(question: int, answers: Sequence[int], pipe: Connection) -> None:
             peer, said = socket.recv_multipart()
             for part in parts if len(said) == question else ():
                 socket.send_multipart([peer, part])
-
-
-def empty_loop(rate: int, seconds: float, pipe: Connection) -> None:
-    """Process: wakes at every deadline of a server and does nothing."""
-    lateness = Ring()
-    clock = FrameClock(rate, now_ns() + SECOND // rate)
-    for _ in range(round(rate * seconds)):
-        time.sleep(max(0, clock.deadline - now_ns()) / SECOND)
-        lateness.add((now_ns() - clock.deadline) / 1000.0)
-        clock.advance(now_ns())
-    pipe.send(shares(lateness, 50, 99, 99.9))
-
-
-def in_process(target: Any, *arguments: Any) -> tuple[Any, Connection]:
-    """Start ``target(*arguments, pipe)`` in a process of its own; returns it and our end of the pipe."""
-    ours, theirs = PROCESSES.Pipe()
-    process = PROCESSES.Process(target=target, args=(*arguments, theirs), daemon=True)
-    process.start()
-    return process, ours
 
 
 def command_to_pose(client: Client, seconds: float, aimed: bool) -> list[float]:
@@ -173,14 +150,6 @@ def in_lock_step(path: str) -> dict[str, Any]:
     ours = shares(trips[ECHOES // 10 :], 50, 99)
     ratio = {name: round(ours[name] / bare[name], 2) for name in ours}
     return {"command_to_pose_us": ours, "bare_us": bare, "ratio": ratio, "tick_us": summary["tick_us"], "bytes": size}
-
-
-def idle(rate: int, seconds: float) -> dict[str, float]:
-    """Lateness of an empty loop, microseconds."""
-    process, pipe = in_process(empty_loop, rate, seconds)
-    figures = pipe.recv()
-    process.join()
-    return figures
 
 
 def main() -> None:

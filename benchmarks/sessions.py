@@ -11,7 +11,6 @@ A session starves where a second passes without a pose. Without a bundle the tes
 
 import argparse
 import json
-import multiprocessing
 import os
 import platform
 import random
@@ -28,13 +27,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from footwork.motion.bundle import read_bundle
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server, encode
-from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.limits import Limits
-from footwork.runtime.ring import Ring
 from footwork.runtime.server import Server
+from support.machine import resident_bytes
+from support.processes import idle, in_process, lateness_shares
 from toy_bundle import toy_bundle
 
-PROCESSES = multiprocessing.get_context("spawn")
 COMMAND_EVERY = 0.5
 STARVED = 1.0
 FIRST = 60.0  # seconds, after which memory shall not grow
@@ -53,13 +51,7 @@ def serve(path: str, rate: int, sessions: int, pipe: Connection) -> None:
         return pipe.poll()
 
     server.run(until=until)
-    lateness = {f"p{share:g}": round(server.lateness_us.percentile(share), 1) for share in (50, 99, 99.9)}
-    pipe.send(server.summary() | {"lateness_us": lateness, "memory": memory})
-
-
-def resident_bytes() -> int:
-    """What this process holds in memory."""
-    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    pipe.send(server.summary() | {"lateness_us": lateness_shares(server.lateness_us), "memory": memory})
 
 
 class Session:
@@ -118,27 +110,6 @@ def play(address: str, sessions: int, seconds: float, seed: int, pipe: Connectio
     time.sleep(0.5)
 
 
-def empty_loop(rate: int, seconds: float, pipe: Connection) -> None:
-    """Process: wakes at every deadline and does nothing; late ones are those a whole period late."""
-    lateness, late = Ring(), 0
-    clock = FrameClock(rate, now_ns() + SECOND // rate)
-    for _ in range(round(rate * seconds)):
-        time.sleep(max(0, clock.deadline - now_ns()) / SECOND)
-        behind = now_ns() - clock.deadline
-        lateness.add(behind / 1000.0)
-        late += behind > clock.period
-        clock.advance(now_ns())
-    pipe.send({f"p{share:g}": round(lateness.percentile(share), 1) for share in (50, 99, 99.9)} | {"late": late})
-
-
-def in_process(target: Any, *arguments: Any) -> tuple[Any, Connection]:
-    """Start ``target(*arguments, pipe)`` in a process of its own; returns it and our end of the pipe."""
-    ours, theirs = PROCESSES.Pipe()
-    process = PROCESSES.Process(target=target, args=(*arguments, theirs), daemon=True)
-    process.start()
-    return process, ours
-
-
 def served(path: str, rate: int, sessions: int, seconds: float) -> dict[str, Any]:
     """Figures of the server and of its clients."""
     process, pipe = in_process(serve, path, rate, sessions)
@@ -171,8 +142,7 @@ def main() -> None:
     options = parser.parse_args()
     report: dict[str, Any] = {"machine": platform.machine(), "cores": os.cpu_count(), "load": os.getloadavg()[0]}
     report |= {"sessions": options.sessions, "seconds": options.seconds, "rate": options.rate}
-    _, pipe = in_process(empty_loop, options.rate, min(60.0, options.seconds))
-    report["empty_loop_lateness_us"] = pipe.recv()
+    report["empty_loop_lateness_us"] = idle(options.rate, min(60.0, options.seconds))
     report["served"] = served(options.bundle, options.rate, options.sessions, options.seconds)
     print(json.dumps(report))
 

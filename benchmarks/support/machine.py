@@ -1,9 +1,11 @@
 """What this machine can do at best, measured in the same run as what is compared with it."""
 
+import os
 import statistics
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 
@@ -40,3 +42,8 @@ def memory_bandwidth(megabytes: int = 256, repeats: int = 5, threads: int = 1) -
     with ThreadPoolExecutor(threads) as pool:
         seconds = seconds_of(lambda: list(pool.map(np.copyto, target, source)), repeats)
     return 2.0 * source.nbytes / min(seconds)
+
+
+def resident_bytes() -> int:
+    """What this process holds in memory; Linux."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
