@@ -107,8 +107,8 @@ class Command(Message, frozen=True):
             raise ValueError("expected no speed with keys")
 
 
-class Correct(Message, frozen=True):
-    """client: moves a character's root, as where a wall stopped it; its motion goes on from there, turned with it.
+class Moved(Message, frozen=True):
+    """What ``correct`` and ``teleport`` say.
 
     Args:
         sequence: above all earlier ones of the session.
@@ -125,22 +125,12 @@ class Correct(Message, frozen=True):
     yaw: Radians
 
 
-class Teleport(Message, frozen=True):
-    """client: puts a character somewhere else, and nothing of where it was lingers in how it is shown.
+class Correct(Moved, frozen=True):
+    """client: moves a character's root, as where a wall stopped it; its motion goes on from there, turned with it."""
 
-    Args:
-        sequence: above all earlier ones of the session.
-        character: whom it is for.
-        x: the new place, metres.
-        z: the new place, metres.
-        yaw: the new facing, radians.
-    """
 
-    sequence: Sequence
-    character: CharacterNumber
-    x: Metres
-    z: Metres
-    yaw: Radians
+class Teleport(Moved, frozen=True):
+    """client: puts a character somewhere else, and nothing of where it was lingers in how it is shown."""
 
 
 class Despawn(Message, frozen=True):

@@ -96,22 +96,21 @@ class Commanded(Record, frozen=True, array_like=True, gc=False, tag="command"):
     speed: Number | None = None
 
 
-class Corrected(Record, frozen=True, array_like=True, gc=False, tag="correct"):
+class Moved(Record, frozen=True, array_like=True, gc=False):
+    """Where a character was put."""
+
+    slot: Slot
+    x: Number
+    z: Number
+    yaw: Number
+
+
+class Corrected(Moved, frozen=True, array_like=True, gc=False, tag="correct"):
     """A root was moved, and the motion with it."""
 
-    slot: Slot
-    x: Number
-    z: Number
-    yaw: Number
 
-
-class Teleported(Record, frozen=True, array_like=True, gc=False, tag="teleport"):
+class Teleported(Moved, frozen=True, array_like=True, gc=False, tag="teleport"):
     """A character was put elsewhere."""
-
-    slot: Slot
-    x: Number
-    z: Number
-    yaw: Number
 
 
 class Removed(Record, frozen=True, array_like=True, gc=False, tag="remove"):
