@@ -13,6 +13,7 @@ def test_the_fighting_example_is_the_published_machine():
     assert machine.names == ("locomotion", "attack", "evade")
     assert machine.allowed == {(0, 0), (0, 1), (0, 2), (1, 0), (2, 0)}
     assert machine.at_once == ((0, 1), (0, 2))
+    assert machine.shadowing == 0
     assert machine.states_of(["attack", "", "locomotion", "evade"]) == [1, NO_STATE, 0, 2]
 
 
@@ -51,6 +52,15 @@ def test_a_state_may_show_several_labels():
         (
             "[states.a]\nto = ['a', 'b']\nat_once = ['c']\n[states.b]\nto = ['a']",
             "states.a: 'c' is to be reached at once, expected it in its 'to' as well",
+        ),
+        ("[states.a]\nto = ['a']\nshadowing = 1", "states.a: shadowing is 1, expected true or false"),
+        (
+            "[states.a]\nto = ['a', 'b']\n[states.b]\nto = ['a']\nshadowing = true",
+            "states.b: no transitions within it, but it is shadowing: add 'b' to its 'to'",
+        ),
+        (
+            "[states.a]\nto = ['a', 'b']\nshadowing = true\n[states.b]\nto = ['a', 'b']\nshadowing = true",
+            "states.b: a second shadowing state, expected one at most",
         ),
         ("[states.a", "is not TOML"),
         ("# " + "x" * (1 << 20), "is longer than"),

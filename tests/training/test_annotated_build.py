@@ -21,6 +21,7 @@ from footwork.training.graph_options import GraphOptions
 from motion_samples import SampleMotions, sample_clip, sample_clips
 
 FIGHTING = read_state_machine(Path(__file__).resolve().parents[2] / "examples" / "fighting.toml")
+WITHOUT_SHADOWING = StateMachine(tuple(replace(state, shadowing=False) for state in FIGHTING.states), FIGHTING.where)
 ANNOTATED = GraphOptions(graph="annotated")
 SWAY = StateMachine((State("walk", ("walk",), ("walk", "run"), ("run",)), State("run", ("run",), ("walk",))))
 
@@ -73,6 +74,20 @@ def test_the_report_tells_states_steps_and_delays(built):
     assert report["policy"] is None
 
 
+def test_the_state_that_says_so_gets_a_table_of_shadowing(built):
+    bundle, report = built
+    told = report["shadowing"]
+    assert told["converged"]
+    assert told["states"] == bundle.shadowing.values.size == 302 * 31 * 36
+    assert told["bytes"] == bundle.shadowing.values.nbytes
+    assert "shadowing" in report["seconds"]
+
+
+def test_shadowing_needs_states(built):
+    with pytest.raises(InputError, match="shadowing without states, expected an annotated graph"):
+        replace(built[0], annotation=None)
+
+
 def test_the_report_means_what_the_tables_hold(built):
     notes, report = built[0].annotation, built[1]
     own = notes.state[notes.between((0, 2))] == 0
@@ -92,6 +107,10 @@ def test_an_annotated_bundle_reads_as_it_was_written_and_comes_out_the_same_agai
     data, digest = encode_bundle(bundle)
     read = decode_bundle(data, "fight")
     assert read.annotation is not None
+    assert read.shadowing is not None
+    assert bundle.shadowing is not None
+    np.testing.assert_array_equal(read.shadowing.values, bundle.shadowing.values)
+    assert (read.shadowing.task, read.shadowing.state) == (bundle.shadowing.task, 0)
     assert (read.digest, digest) == (bundle.digest, bundle.digest)
     assert read.annotation.machine.states == FIGHTING.states
     for mine, other in zip(read.annotation.ways, bundle.annotation.ways, strict=True):
@@ -120,6 +139,13 @@ def test_an_annotated_bundle_reads_as_it_was_written_and_comes_out_the_same_agai
         (lambda about, arrays: bump(arrays, "ways.1.edge", (0, 0), 1 << 30), "edge of ways holds"),
         (lambda about, arrays: arrays.update({"ways.0.edge": np.zeros((2, 2), np.int32)}), "edge of ways has shape"),
         (lambda about, arrays: arrays.update({"ways.0.delay": np.zeros((2, 2), np.int16)}), "holds int16"),
+        (lambda about, arrays: arrays.pop("shadowing.values"), r"no array 'shadowing\.values'"),
+        (lambda about, arrays: bump(arrays, "shadowing.values", (3, 1, 2), np.nan), "is nan, expected a finite"),
+        (lambda about, arrays: about["shadowing"].update(converged=False), "shadowing: not converged: residual"),
+        (lambda about, arrays: about["shadowing"].update(state=1), r"values of \d+ segments, 'attack' has"),
+        (lambda about, arrays: about["shadowing"].update(state=3), "shadowing: state holds 3 to 3"),
+        (lambda about, arrays: about["shadowing"]["task"].update(distance=-1.0), r"distance is -1\.0, expected a pos"),
+        (lambda about, arrays: about["shadowing"]["task"].update(bearing_bins=18), "values has shape"),
     ],
 )
 def test_annotations_that_do_not_fit_are_refused(built, change, says):
@@ -181,9 +207,9 @@ def test_motions_without_an_attack_are_refused_before_the_work_begins():
 def test_a_threshold_that_keeps_no_strike_names_one_that_does():
     motions = embedded_dataset("fighting")
     with pytest.raises(InputError, match=r"toml: states.\w+: no way .* a threshold of [\d.e-]+ would keep") as caught:
-        build_bundle(motions, replace(ANNOTATED, threshold=1e-5), machine=FIGHTING)
+        build_bundle(motions, replace(ANNOTATED, threshold=1e-5), machine=WITHOUT_SHADOWING)
     needed = float(str(caught.value).split("a threshold of ")[1].split()[0])
-    _, report = build_bundle(motions, replace(ANNOTATED, threshold=needed), machine=FIGHTING)
+    _, report = build_bundle(motions, replace(ANNOTATED, threshold=needed), machine=WITHOUT_SHADOWING)
     assert all(state["nodes"] for state in report["states"])
 
 

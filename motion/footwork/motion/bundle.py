@@ -8,16 +8,25 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
 from footwork.errors import InputError
 from footwork.motion import tensor_file
-from footwork.motion.annotation import Annotation, NextHops
+from footwork.motion.annotation import Annotation
+from footwork.motion.bundle_states import (
+    AboutShadowing,
+    about_states,
+    arrays_of_states,
+    read_annotation,
+    read_shadowing,
+    take,
+)
 from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import ARRAYS, MotionGraph
 from footwork.motion.player_model import PlayerModel, TraceFile
+from footwork.motion.shadowing_table import ShadowingTable
 from footwork.motion.skeleton import Skeleton
-from footwork.motion.state_machine import State, StateMachine
+from footwork.motion.state_machine import State
 from footwork.motion.table import SHORTLIST_KINDS, PolicyTable
 from footwork.motion.task import SteeringTask
 
@@ -43,10 +52,12 @@ class Bundle:
         attribution: what the licences of the sources ask to have shown, a line each.
         digest: SHA-256 of the file, empty before it is sealed.
         annotation: states, segments and quickest ways of a state-annotated graph, None for any other.
+        shadowing: what to do before an opponent in the state of the annotation that is shadowing, None without one.
 
     Raises:
         InputError: for a graph with no nodes or with a node that leads nowhere, for a table of other nodes or
-            behaviours than the graph's, and for an annotation of another graph.
+            behaviours than the graph's, for an annotation of another graph, and for shadowing of other
+            segments than the annotation's.
     """
 
     graph: MotionGraph
@@ -55,6 +66,7 @@ class Bundle:
     attribution: tuple[str, ...] = ()
     digest: str = ""
     annotation: Annotation | None = None
+    shadowing: ShadowingTable | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "attribution", tuple(self.attribution))
@@ -63,6 +75,8 @@ class Bundle:
             self._check_table(table)
         if self.annotation is not None:
             self.annotation.require_fits(self.graph)
+        if self.shadowing is not None:
+            self._check_shadowing(self.shadowing)
 
     def _check_graph(self) -> None:
         graph = self.graph
@@ -81,6 +95,11 @@ class Bundle:
         actions = len(table.task.turn_levels) * np.diff(graph.edge_start)
         if table.shortlist.size and (table.shortlist.max(axis=(1, 2)) >= actions).any():
             raise InputError("its shortlist names actions that are not there", table.where)
+
+    def _check_shadowing(self, table: ShadowingTable) -> None:
+        if self.annotation is None:
+            raise InputError("shadowing without states, expected an annotated graph", table.where)
+        table.require_fits(self.annotation)
 
     def table(self, name: str) -> PolicyTable:
         """The policy called ``name``.
@@ -117,6 +136,7 @@ class _About(msgspec.Struct):
     attribution: list[str]
     states: list[State] | None = None
     """Of a state-annotated graph."""
+    shadowing: AboutShadowing | None = None
 
 
 def write_bundle(path: str | Path, bundle: Bundle) -> str:
@@ -162,8 +182,9 @@ def decode_bundle(data: tensor_file.Data, where: str) -> Bundle:
     about = tensor_file.decode_about(text, _About, where)
     tables = {name: _table(table, arrays, name, where) for name, table in about.tables.items()}
     graph = _graph(about, arrays, where)
-    annotation = None if about.states is None else _annotation(about.states, arrays, where)
-    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest, annotation)
+    annotation = None if about.states is None else read_annotation(about.states, arrays, where)
+    shadowing = None if about.shadowing is None else read_shadowing(about.shadowing, arrays, where)
+    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest, annotation, shadowing)
 
 
 def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
@@ -173,8 +194,7 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
     arrays |= {f"skeleton.{name}": getattr(graph.skeleton, name) for name in _BODY_ARRAYS}
     for name, table in bundle.tables.items():
         arrays |= _table_arrays(name, table.require_converged())
-    if bundle.annotation is not None:
-        arrays |= _annotation_arrays(bundle.annotation)
+    arrays |= arrays_of_states(bundle.annotation, bundle.shadowing)
     about = {
         "version": VERSION,
         "joints": graph.skeleton.names,
@@ -184,7 +204,7 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
         "tables": {name: _about_table(table) for name, table in bundle.tables.items()},
         "provenance": bundle.provenance,
         "attribution": bundle.attribution,
-    } | ({} if bundle.annotation is None else {"states": bundle.annotation.machine.states})
+    } | about_states(bundle.annotation, bundle.shadowing)
     return tensor_file.seal(arrays, about)
 
 
@@ -199,28 +219,11 @@ def _about_table(table: PolicyTable) -> _Table:
     return _Table(table.task, table.residual, table.sweeps, table.converged, learned_from)
 
 
-def _annotation_arrays(annotation: Annotation) -> dict[str, NDArray]:
-    arrays: dict[str, NDArray] = {"segments.first": annotation.first, "segments.state": annotation.state}
-    for number, hops in enumerate(annotation.ways):
-        arrays |= {f"ways.{number}.edge": hops.edge, f"ways.{number}.delay": hops.delay}
-    return arrays
-
-
-def _take(arrays: Mapping[str, NDArray], name: str, kinds: DTypeLike | tuple, where: str) -> NDArray:
-    if name not in arrays:
-        raise InputError(f"no array {name!r}, it has {', '.join(sorted(arrays)) or 'none'}", where)
-    kinds = kinds if isinstance(kinds, tuple) else (kinds,)
-    if arrays[name].dtype not in kinds:
-        expected = " or ".join(str(np.dtype(kind)) for kind in kinds)
-        raise InputError(f"array {name!r} holds {arrays[name].dtype}, expected {expected}", where)
-    return arrays[name]
-
-
 def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PolicyTable:
-    coded = CodedValues(*(_take(arrays, f"table.{name}.{part}", kind, where) for part, kind in _CODED.items()))
+    coded = CodedValues(*(take(arrays, f"table.{name}.{part}", kind, where) for part, kind in _CODED.items()))
     listed = {}
     if f"table.{name}.shortlist" in arrays:
-        listed["shortlist"] = _take(arrays, f"table.{name}.shortlist", SHORTLIST_KINDS, where)
+        listed["shortlist"] = take(arrays, f"table.{name}.shortlist", SHORTLIST_KINDS, where)
     if not math.isfinite(about.residual):
         raise InputError(f"table {name!r} has a residual of {about.residual}, expected a finite number", where)
     return PolicyTable(
@@ -238,13 +241,13 @@ def _table(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) 
 def _player(about: _Table, arrays: Mapping[str, NDArray], name: str, where: str) -> PlayerModel | None:
     if about.learned_from is None:
         return None
-    change = _take(arrays, f"player.{name}", np.float64, where)
+    change = take(arrays, f"player.{name}", np.float64, where)
     return PlayerModel(about.task.behaviours, change, tuple(about.learned_from), f"{where}: player of table {name!r}")
 
 
 def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGraph:
-    body = {name: _take(arrays, f"skeleton.{name}", kind, where) for name, kind in _BODY_ARRAYS.items()}
-    graph = {name: _take(arrays, f"graph.{name}", kind, where) for name, kind in ARRAYS.items()}
+    body = {name: take(arrays, f"skeleton.{name}", kind, where) for name, kind in _BODY_ARRAYS.items()}
+    graph = {name: take(arrays, f"graph.{name}", kind, where) for name, kind in ARRAYS.items()}
     return MotionGraph(
         skeleton=Skeleton(names=tuple(about.joints), where=f"{where}: skeleton", **body),
         clips=tuple(about.clips),
@@ -252,19 +255,4 @@ def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGr
         behaviours=tuple(about.behaviours),
         where=f"{where}: graph",
         **graph,
-    )
-
-
-def _annotation(states: list[State], arrays: Mapping[str, NDArray], where: str) -> Annotation:
-    machine = StateMachine(tuple(states), f"{where}: machine")
-
-    def hops(number: int) -> NextHops:
-        return NextHops(*(_take(arrays, f"ways.{number}.{part}", np.int32, where) for part in ("edge", "delay")))
-
-    return Annotation(
-        machine,
-        _take(arrays, "segments.first", np.int32, where),
-        _take(arrays, "segments.state", np.int16, where),
-        tuple(map(hops, range(len(machine.at_once)))),
-        f"{where}: annotation",
     )

@@ -12,7 +12,8 @@ Read from a TOML file with a table for each state, the one that characters begin
 
 A state shows the frames with its ``labels``, or those labelled with its own name where it gives none. Its frames follow
 one another as they were captured; those of the states in ``to`` may follow by transitions too, and so may its own if it
-names itself. States named ``at_once`` are to be reached as soon as possible from wherever in it a character is.
+names itself. States named ``at_once`` are to be reached as soon as possible from wherever in it a character is. One
+state may say ``shadowing = true``: in it a character keeps its distance from an opponent and faces it.
 """
 
 from collections.abc import Iterable, Sequence
@@ -26,7 +27,7 @@ from footwork.motion.toml_file import only_keys, read_toml, shown
 
 NO_STATE = -1
 MOST_STATES = 64
-_KEYS = ("labels", "to", "at_once")
+_KEYS = ("labels", "to", "at_once", "shadowing")
 
 
 @dataclass(frozen=True)
@@ -38,12 +39,14 @@ class State:
         labels: the labels of frames that show it.
         to: names of the states that may follow; its own for transitions within it.
         at_once: those of them that every frame of it needs a quick way to.
+        shadowing: whether characters in it keep their distance from an opponent and face it.
     """
 
     name: str
     labels: tuple[str, ...]
     to: tuple[str, ...]
     at_once: tuple[str, ...] = ()
+    shadowing: bool = False
 
 
 @dataclass(frozen=True)
@@ -56,9 +59,10 @@ class StateMachine:
 
     Raises:
         InputError: for no states or more than MOST_STATES; names used twice; a state without labels, or with one that
-            another state has; a state that nothing may follow, that leads to one that is not there, that cannot be
-            reached from the first or does not lead back to it; a state to be reached at once that does not follow; and
-            no self transition of the first state or of one from which others are to be reached at once.
+            another state has; more than one that is shadowing; a state that nothing may follow, that leads to one that
+            is not there, that cannot be reached from the first or does not lead back to it; a state to be reached at
+            once that does not follow; and no self transition of the first state, of a shadowing one or of one from
+            which others are to be reached at once.
     """
 
     states: tuple[State, ...]
@@ -72,6 +76,8 @@ class StateMachine:
         self._check_names()
         for state in self.states:
             self._check_state(state)
+        if shadowing := [number for number, state in enumerate(self.states) if state.shadowing][1:]:
+            raise InputError("a second shadowing state, expected one at most", self.place(shadowing[0]))
         self._check_connected()
 
     @property
@@ -88,6 +94,11 @@ class StateMachine:
     def at_once(self) -> tuple[tuple[int, int], ...]:
         """Pairs of states of which the second is to be reached quickly from everywhere in the first, in order."""
         return tuple(sorted(self._pairs(state.at_once for state in self.states)))
+
+    @property
+    def shadowing(self) -> int:
+        """The number of the state that is shadowing, NO_STATE for none."""
+        return next((number for number, state in enumerate(self.states) if state.shadowing), NO_STATE)
 
     def states_of(self, labels: Sequence[str]) -> list[int]:
         """The number of the state that each label shows, NO_STATE for those that show none."""
@@ -141,9 +152,10 @@ class StateMachine:
 
     def _check_stays(self, state: State, place: str) -> None:
         """A character must be able to go on within a state for as long as it takes."""
-        if state.name in state.to or not (state.at_once or state is self.states[0]):
+        if state.name in state.to or not (state.at_once or state.shadowing or state is self.states[0]):
             return
-        why = f"{state.at_once[0]!r} is to be reached at once from it" if state.at_once else "characters rest in it"
+        why = "characters rest in it" if state is self.states[0] else "it is shadowing"
+        why = f"{state.at_once[0]!r} is to be reached at once from it" if state.at_once else why
         raise InputError(f"no transitions within it, but {why}: add {state.name!r} to its 'to'", place)
 
     def _check_connected(self) -> None:
@@ -185,7 +197,10 @@ def _state(name: str, values: Any, where: str) -> State:
     only_keys(values, _KEYS, where)
     labels = _words(values, "labels", where) if "labels" in values else (name,)
     at_once = _words(values, "at_once", where) if "at_once" in values else ()
-    return State(name, labels, _words(values, "to", where), at_once)
+    shadowing = values.get("shadowing", False)
+    if not isinstance(shadowing, bool):
+        raise InputError(f"shadowing is {shown(shadowing)}, expected true or false", where)
+    return State(name, labels, _words(values, "to", where), at_once, shadowing)
 
 
 def _words(values: dict[str, Any], key: str, where: str) -> tuple[str, ...]:

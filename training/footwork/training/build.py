@@ -11,7 +11,9 @@ from footwork.motion.bundle import Bundle, sealed
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.mirror import mirrored
-from footwork.motion.state_machine import StateMachine
+from footwork.motion.shadowing_table import ShadowingTable
+from footwork.motion.shadowing_task import ShadowingTask
+from footwork.motion.state_machine import NO_STATE, StateMachine
 from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.motion.trace import Trace
@@ -21,6 +23,7 @@ from footwork.training.graph_options import GraphOptions, require_machine
 from footwork.training.memory import peak_rss_mb
 from footwork.training.player_model import learned
 from footwork.training.recipe import Built
+from footwork.training.shadowing import solve_shadowing
 from footwork.training.speed_levels import with_speed_levels
 from footwork.training.stages import Progress, Stages
 from footwork.training.standard_recipe import build_standard
@@ -66,7 +69,8 @@ def build_bundle(
     graph), scc_nodes, scc_fraction (of the captured and mirrored frames), what the graph's kind adds, threshold, knee
     (where it was to be found), seconds (read, which is 0 for the clips came from the caller, each stage and the total),
     peak_rss_mb, policy (states, sweeps, residual, converged; None where no frame shows any
-    behaviour, for there is nothing to steer by then), missing_behaviours (those that no frame of the graph
+    behaviour, for there is nothing to steer by then), shadowing (the same of the table for a state that is shadowing,
+    and its bytes; only where there is one), missing_behaviours (those that no frame of the graph
     shows, so that commands for them go unanswered) and digest.
 
     Args:
@@ -96,9 +100,17 @@ def build_bundle(
         with stages("policy") as tell:
             player = learned(players, task, _shown_behaviours(built.graph)) if players else None
             tables["steering"] = solve(built.graph, task, player=player, progress=tell).require_converged().compact
+    shadowing = _shadowing(built, stages)
     extra = _mirrored_frames(motions, options)
     provenance = _provenance(motions, options, task, built, extra) | choice
-    whole = Bundle(built.graph, tables, provenance, tuple(motions.attribution), annotation=built.annotation)
+    whole = Bundle(
+        built.graph,
+        tables,
+        provenance,
+        tuple(motions.attribution),
+        annotation=built.annotation,
+        shadowing=shadowing,
+    )
     bundle = sealed(whole)
     report = {
         "frames": sum(clip.frame_count for clip in motions.clips),
@@ -113,6 +125,7 @@ def build_bundle(
         "seconds": {"read": 0.0} | stages.seconds | {"total": sum(stages.seconds.values())},
         "peak_rss_mb": peak_rss_mb(),
         "policy": _solved(tables["steering"]) if tables else None,
+        **({} if shadowing is None else {"shadowing": _solved(shadowing) | {"bytes": shadowing.nbytes}}),
         "missing_behaviours": [name for name in task.behaviours if name not in _shown_behaviours(built.graph)],
         "digest": bundle.digest,
     }
@@ -129,6 +142,16 @@ def _built(
     return build(clips, options, task, stages)
 
 
+def _shadowing(built: Built, stages: Stages) -> ShadowingTable | None:
+    """The table for the state that is shadowing, where there is one."""
+    notes = built.annotation
+    if notes is None or notes.machine.shadowing == NO_STATE:
+        return None
+    with stages("shadowing") as tell:
+        task = ShadowingTask()
+        return solve_shadowing(built.graph, notes, notes.machine.shadowing, task, progress=tell).require_converged()
+
+
 def _check(clips: Sequence[Clip]) -> None:
     for clip in clips:
         if clip.frame_count < LENGTH:
@@ -136,7 +159,7 @@ def _check(clips: Sequence[Clip]) -> None:
             raise InputError(problem, clip.name)
 
 
-def _solved(table: PolicyTable) -> dict[str, Any]:
+def _solved(table: PolicyTable | ShadowingTable) -> dict[str, Any]:
     return {
         "states": table.values.size,
         "sweeps": table.sweeps,

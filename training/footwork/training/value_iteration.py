@@ -115,7 +115,7 @@ def fixed_point(
                 sweeper.follow(SETTLED * residual, max_sweeps - sweeper.sweeps - 1)
             residual = sweeper.improve()
             improvements, first = improvements + 1, first or residual
-            done = max(done, _share_done(residual, first, tolerance))  # residuals may rise on their way down
+            done = max(done, share_done(residual, first, tolerance))  # residuals may rise on their way down
             if progress is not None:
                 progress(done)
     return Solution(sweeper.values, residual, sweeper.sweeps, improvements, sweeper.bytes)
@@ -158,7 +158,7 @@ def _precision(task: SteeringTask, tolerance: float) -> DTypeLike:
     return np.float32 if tolerance > _ROUNDINGS * np.finfo(np.float32).eps * largest else np.float64
 
 
-def _share_done(residual: float, first: float, tolerance: float) -> float:
+def share_done(residual: float, first: float, tolerance: float) -> float:
     """How far the residual has come on its way, which is straight in the logarithm."""
     if residual < tolerance or first <= tolerance:
         return 1.0

@@ -10,10 +10,12 @@ from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
+from footwork.motion.shadowing_task import ShadowingTask
 from footwork.motion.state_machine import State, StateMachine
 from footwork.motion.task import SteeringTask
 from footwork.training.annotated_recipe import annotated
 from footwork.training.graph_options import GraphOptions
+from footwork.training.shadowing import solve_shadowing
 from footwork.training.stages import Stages
 from footwork.training.standard_recipe import build_standard
 from footwork.training.value_iteration import solve
@@ -45,7 +47,8 @@ def warm(options: GraphOptions) -> None:
     built = build_standard(clips, small, task, Stages())
     solve(built.graph, task)
     if options.graph == "annotated":
-        annotated(built.graph, _ON, np.zeros(built.graph.node_count, dtype=np.int16))
+        notes = annotated(built.graph, _ON, np.zeros(built.graph.node_count, dtype=np.int16))
+        solve_shadowing(built.graph, notes, 0, ShadowingTask(distance_bins=2, bearing_bins=4))
     if options.graph == "well-connected":
         with suppress(InputError):
             build_well_connected(clips, small, task, Stages())
