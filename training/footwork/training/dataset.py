@@ -10,7 +10,7 @@ import numpy as np
 
 from footwork.errors import InputError
 from footwork.motion.bvh import CENTIMETRE
-from footwork.motion.capture import EXTENSIONS, read_capture, skeleton_of
+from footwork.motion.capture import EXTENSIONS, file_of, read_motions, skeleton_of
 from footwork.motion.clip import Clip
 from footwork.motion.floor_plane import Floor
 from footwork.motion.frame_tables import (
@@ -48,7 +48,7 @@ class Dataset:
 
 @dataclass(frozen=True)
 class _Source:
-    """One file of the folder as read, with the parts of it to use."""
+    """One clip of a file of the folder as read, with the parts of it to use."""
 
     path: Path
     clip: Clip
@@ -72,7 +72,8 @@ def load_clips(
     called ``FILE[START:END]``.
 
     Args:
-        directory: folder of ``.bvh`` and ``.amc`` files; folders in it are not looked into.
+        directory: folder of ``.bvh``, ``.amc`` and ``.glb`` files; folders in it are not looked into. Tables name a
+            clip of a GLB file that holds several as ``FILE#ANIMATION``.
         labels: table of labels; frames without one, or all without a table, are unlabelled.
         ranges: table of the parts to use, each a clip; without it every file is used whole.
         body: the common body to map onto; without it the mean of the people in the files used.
@@ -90,7 +91,7 @@ def load_clips(
     range_rows = _rows(read_ranges(ranges), directory, paths, ranges) if ranges else None
     if range_rows is not None:
         paths = _named(paths, range_rows)
-    sources = [_read(path, label_rows, range_rows, name_tables, bvh_unit) for path in paths]
+    sources = [source for path in paths for source in _read(path, label_rows, range_rows, name_tables, bvh_unit)]
     resampled = [resample(source.clip) for source in sources]
     if body is None:
         body = common_body_of(resampled, name_tables)
@@ -127,7 +128,7 @@ def _rows(
     """The rows of a table for this folder, at least one of them for a file that is there."""
     set_name = Path(directory).resolve().name
     own = rows_of_set(rows, set_name)
-    if not {row.file for row in own} & {path.name for path in paths}:
+    if not {file_of(row.file) for row in own} & {path.name for path in paths}:
         sets = ", ".join(sorted({row.set_name for row in rows if row.set_name})[:8]) or "none"
         raise InputError(f"no row for the files of {directory} (set {set_name!r}); its sets are {sets}", table)
     return own
@@ -136,9 +137,9 @@ def _rows(
 def _named(paths: Sequence[Path], rows: Sequence[FrameRange]) -> list[Path]:
     there = {path.name: path for path in paths}
     for row in rows:
-        if row.file not in there:
+        if file_of(row.file) not in there:
             raise InputError(f"names {row.file}, which is not in the folder", row.where)
-    return [there[name] for name in sorted({row.file for row in rows})]
+    return [there[name] for name in sorted({file_of(row.file) for row in rows})]
 
 
 def _read(
@@ -147,13 +148,35 @@ def _read(
     ranges: Sequence[FrameRange] | None,
     tables: Sequence[NameTable],
     bvh_unit: float,
+) -> list[_Source]:
+    clips = read_motions(path, bvh_unit)
+    _require_there([*labels, *(ranges or ())], path, clips)
+    return [
+        _source(path, clip, labels, ranges, tables)
+        for clip in clips
+        if ranges is None or rows_of_file(ranges, clip.name)
+    ]
+
+
+def _require_there(rows: Sequence[FrameRange], path: Path, clips: Sequence[Clip]) -> None:
+    names = [clip.name for clip in clips]
+    for row in rows:
+        if file_of(row.file) == path.name and row.file not in names:
+            raise InputError(f"names {row.file}, but {path.name} holds {', '.join(names[:8])}", row.where)
+
+
+def _source(
+    path: Path,
+    clip: Clip,
+    labels: Sequence[FrameRange],
+    ranges: Sequence[FrameRange] | None,
+    tables: Sequence[NameTable],
 ) -> _Source:
-    clip = read_capture(path, bvh_unit)
     _require_human_size(clip)
-    clip = replace(clip, labels=frame_labels(rows_of_file(labels, path.name), clip.frame_count))
+    clip = replace(clip, labels=frame_labels(rows_of_file(labels, clip.name), clip.frame_count))
     if ranges is None:
         return _Source(path, clip, table_for(clip.skeleton, tables), [(0, clip.frame_count)])
-    rows = rows_of_file(ranges, path.name)
+    rows = rows_of_file(ranges, clip.name)
     require_inside(rows, clip.frame_count)
     return _Source(path, clip, table_for(clip.skeleton, tables), [(row.start, row.end) for row in rows])
 
@@ -189,7 +212,7 @@ def _mapped(source: _Source, body: Skeleton, floor: Floor) -> list[Clip]:
 
 def _name(source: _Source, start: int, end: int) -> str:
     whole = (start, end) == (0, source.clip.frame_count)
-    return source.path.name if whole else f"{source.path.name}[{start}:{end}]"
+    return source.clip.name if whole else f"{source.clip.name}[{start}:{end}]"
 
 
 def _provenance(source: _Source) -> list[dict[str, Any]]:
