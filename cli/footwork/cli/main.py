@@ -9,6 +9,7 @@ from cyclopts.exceptions import CycloptsError
 
 from footwork.cli.build import build
 from footwork.cli.demo import demo
+from footwork.cli.export import export
 from footwork.cli.inspect import inspect
 from footwork.cli.keys import keys
 from footwork.cli.replay import replay
@@ -33,6 +34,7 @@ app.command(inspect)
 app.command(serve)
 app.command(keys)
 app.command(replay)
+app.command(export)
 app.command(score)
 app.command(reproduce)
 
