@@ -22,9 +22,9 @@ class PageFile:
     content: bytes
 
 
-def page_files(three: Path) -> Mapping[str, PageFile]:
-    """All files by their path in an address; ``three`` is the folder that three.js lies in."""
-    files = _files(WEB, "/") | _files(three, "/three/")
+def page_files(vendor: Path) -> Mapping[str, PageFile]:
+    """All files by their path in an address; ``vendor`` is the folder of what comes from npm."""
+    files = _files(WEB, "/") | _files(vendor, "/vendor/")
     return files | {"/": files["/index.html"]}
 
 
