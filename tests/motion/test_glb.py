@@ -3,7 +3,7 @@
 import json
 import struct
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -29,7 +29,7 @@ from motion_samples import sample_clip
 from node_tools import installed
 
 CLIP = sample_clip(0, 40)
-VALIDATOR = Path(__file__).parents[1] / "gltf_validator"
+TOOLS = Path(__file__).parents[1] / "gltf_tools"
 
 
 def places(clip: Clip, names: tuple[str, ...]) -> np.ndarray:
@@ -99,16 +99,42 @@ def test_takes_and_bodies_come_back_under_their_names(tmp_path: Path):
     assert starts == {0.0, 0.5}
 
 
-def test_the_validator_of_the_format_has_nothing_to_say(written: Path, tmp_path: Path):
+@pytest.fixture(scope="module")
+def duel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A file of two bodies, one of which comes late, and of two animations."""
+    path = tmp_path_factory.mktemp("duel") / "duel.glb"
     late = Take("duel", (Part("red", CLIP), Part("blue", sample_clip(1, 30), start=0.5)))
-    write_glb(tmp_path / "duel.glb", [late, Take("solo", (Part("red", sample_clip(2, 1)),))])
-    node, folder = installed(VALIDATOR, tmp_path / "validator")
-    command = [*node, "validate.mjs", str(written), str(tmp_path / "duel.glb")]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=True)
-    reports = [json.loads(line) for line in done.stdout.splitlines()]
+    write_glb(path, [late, Take("solo", (Part("red", sample_clip(2, 1)),))])
+    return path
+
+
+@pytest.fixture(scope="module")
+def tool(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., list[dict[str, Any]]]:
+    """Runs a script of the tools; skips where there is no node."""
+    node, folder = installed(TOOLS, tmp_path_factory.mktemp("tools") / "tools")
+
+    def run(script: str, *files: Path) -> list[dict[str, Any]]:
+        command = [*node, script, *map(str, files)]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=True)
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    return run
+
+
+def test_the_validator_of_the_format_has_nothing_to_say(written: Path, duel: Path, tool):
+    reports = tool("validate.mjs", written, duel)
     assert [report["info"]["animationCount"] for report in reports] == [1, 2]
     for report in reports:
         assert (report["issues"]["messages"], report["issues"]["numInfos"], report["info"]["hasSkins"]) == ([], 0, True)
+
+
+def test_another_importer_has_every_joint_where_it_was_in_every_frame(duel: Path, tool):
+    shown = tool("places.mjs", duel)[0]
+    assert shown["animation"] == "duel"
+    np.testing.assert_allclose(shown["times"], np.arange(45) / 30, atol=1e-6)
+    for body, (clip, start) in enumerate(((CLIP, 0), (sample_clip(1, 30), 15))):
+        frames = np.array([bodies[body] for bodies in shown["frames"]])[start : start + clip.frame_count]
+        np.testing.assert_allclose(frames, clip_places(clip)[0], atol=1e-4)
 
 
 def test_the_file_says_whose_the_motion_is(written: Path):
