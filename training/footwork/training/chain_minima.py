@@ -6,12 +6,22 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.training.chain_tiles import COLUMNS, STRETCH, Compared, Tile, fill_tile, new_tile, set_rows
+from footwork.training.chain_bands import (
+    COLUMNS,
+    DIAGONALS,
+    ROWS,
+    STRETCH,
+    Band,
+    Compared,
+    fill_band,
+    fill_band_by_pairs,
+    new_room,
+)
 from footwork.training.near_rows import BLOCK, Forest, near_masks
 from footwork.training.transitions import MIN_GAP
 
-# Near rows of one chain that are further apart than this are dealt with apart. A tile also pays for the frames around
-# its rows, so that a few rows in between are worth it; how many made no clear difference (3, 8 and 14 were tried).
+# Near rows of one chain that are further apart than this are dealt with apart, and so are diagonals. A band also pays
+# for the frames around its rows, so that a few rows in between are worth it.
 _APART = 8
 
 
@@ -47,7 +57,11 @@ def minima_of_rows(
     masks, touched = np.zeros(size, np.int64), np.zeros(size // BLOCK + 1, np.bool_)
     front = np.empty((2, 2, max(len(everyone.panels), len(awake.panels))), np.int64)
     near = np.empty((size, 2), np.int64)
-    tile, candidates = new_tile(rows.compared), np.empty(((STRETCH + 2) * COLUMNS, 2), np.intp)
+    (cost, products), candidates = new_room(rows.compared), np.empty((ROWS * COLUMNS, 2), np.intp)
+    used, bands = np.zeros(DIAGONALS, np.bool_), np.empty((DIAGONALS, 2), np.int64)
+    # to compiled code, each look into a tuple of arrays counts references: it is done once
+    frames, start, mean, energy, weights, standing = rows.compared
+    by_pairs = standing.times.size > 0
     pairs, costs, total = np.empty((1024, 2), np.int32), np.empty(1024), 0
     while begin < end:
         stop = min(begin + STRETCH, rows.last[begin] + 1)
@@ -56,15 +70,19 @@ def minima_of_rows(
         near_masks(low, wakers, rows.sketch, rows.sketch_energy, everyone, front, masks, touched)
         near_masks(low, sleepers, rows.sketch, rows.sketch_energy, awake, front, masks, touched)
         count = _collect(low, rows, masks, touched, near)
-        set_rows(tile, rows.compared, low, high + 1 - low)
         at = 0
         while at < count:
             past = _run(near[:count], at, rows)
-            box = _box(low, near[:count], at, past, rows)
-            fill_tile(tile, rows.compared, low, *box)
-            found = _candidates(tile, box, threshold, candidates)
             ends = begin, stop, near[at, 0], near[past - 1, 0] + 1
-            pairs, costs, total = _append(candidates[:found], box, ends, rows, tile, pairs, costs, total)
+            around = _around(near[:count], at, past, rows)
+            for b in range(_diagonals(around, used, bands)):
+                band = _band(low, high + 1 - low, around, bands[b, 0], bands[b, 1])
+                if by_pairs:
+                    fill_band_by_pairs(cost, products, frames, start, standing, weights, band)
+                else:
+                    fill_band(cost, products, frames, start, mean, energy, weights, band)
+                found = _candidates(cost, band, threshold, candidates)
+                pairs, costs, total = _append(candidates[:found], band, ends, rows, cost, pairs, costs, total)
             at = past
         begin = stop
     return pairs[:total].copy(), costs[:total].copy()
@@ -119,75 +137,98 @@ def _run(near: NDArray, at: int, rows: Rows) -> int:
 
 
 @numba.njit(cache=True, nogil=True)
-def _box(low: int, near: NDArray, at: int, past: int, rows: Rows) -> tuple[int, int, int, int]:
-    """First row, rows, first column and columns of a run and those next to it that are near too."""
-    bits, column, end = 0, near[at, 0], near[past - 1, 0]
-    for n in range(at, past):
-        bits |= near[n, 1]
-    chain = rows.first[column]
-    if at > 0 and near[at - 1, 0] == column - 1 and rows.first[column - 1] == chain:
-        column -= 1
-        bits |= near[at - 1, 1]
-    if past < len(near) and near[past, 0] == end + 1 and rows.first[end + 1] == chain:
-        end += 1
-        bits |= near[past, 1]
-    first, count, columns = 0, 0, end + 1 - column
-    while not (bits >> first) & 1:
-        first += 1
-    while bits >> (first + count):
-        count += 1
-    return low + first, count, column, columns
+def _around(near: NDArray, at: int, past: int, rows: Rows) -> NDArray:
+    """A run, and the rows of its chain next to it that are near too."""
+    column, end = near[at, 0], near[past - 1, 0]
+    if at > 0 and near[at - 1, 0] == column - 1 and rows.first[column - 1] == rows.first[column]:
+        at -= 1
+    if past < len(near) and near[past, 0] == end + 1 and rows.first[end + 1] == rows.first[column]:
+        past += 1
+    return near[at:past]
 
 
 @numba.njit(cache=True, nogil=True)
-def _candidates(tile: Tile, box: tuple[int, int, int, int], threshold: float, candidates: NDArray) -> int:
-    """Rows and columns of a tile's pairs under the threshold that are lowest among those around them.
+def _diagonals(near: NDArray, used: NDArray, bands: NDArray) -> int:
+    """First and last diagonals of the bands of a run, in ``bands``, and how many these are.
+
+    The n-th row and the m-th near row meet on diagonal n - m; ``used`` is scratch.
+    """
+    used[:] = False
+    for t in range(len(near)):
+        bits, diagonal = near[t, 1], COLUMNS - (near[t, 0] - near[0, 0])
+        while bits:
+            if bits & 1:
+                used[diagonal] = True
+            bits >>= 1
+            diagonal += 1
+    count, last = 0, -_APART
+    for diagonal in range(len(used)):
+        if not used[diagonal]:
+            continue
+        if count == 0 or diagonal - last > _APART:
+            bands[count, 0] = diagonal - COLUMNS
+            count += 1
+        bands[count - 1, 1], last = diagonal - COLUMNS, diagonal
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def _band(base: int, count: int, near: NDArray, low: int, high: int) -> Band:
+    """The band of the diagonals low..high of a run, with those columns only that have near rows on them."""
+    first = near[0, 0]
+    begin, end = near[-1, 0], first
+    for row, bits in near:
+        n = max(low + row - first, 0)
+        if (bits >> n) & ((1 << max(min(high + row - first, ROWS - 1) - n + 1, 0)) - 1):
+            begin, end = min(begin, row), max(end, row)
+    return Band(base, count, low + begin - first, high - low + 1, begin, end - begin + 1)
+
+
+@numba.njit(cache=True, nogil=True)
+def _candidates(cost: NDArray, band: Band, threshold: float, candidates: NDArray) -> int:
+    """Columns and diagonals of a band's pairs under the threshold that are lowest among those around them.
 
     As in training.transitions: of equals the first in reading order counts as the lower one.
     """
-    _, rows, _, columns = box
-    lowest = np.empty(columns, np.bool_)
     count = 0
-    for n in range(rows):
-        _mark_lowest(tile.cost[n], tile.cost[n + 1], tile.cost[n + 2], threshold, lowest)
-        for m in range(columns):
-            if lowest[m]:
-                candidates[count, 0], candidates[count, 1] = n, m
+    for m in range(band.columns):
+        for v in range(band.diagonals):
+            if cost[m + 1, v + 2] < threshold and _lowest(cost, m + 1, v + 2):
+                candidates[count, 0], candidates[count, 1] = m, v
                 count += 1
     return count
 
 
 @numba.njit(cache=True, nogil=True)
-def _mark_lowest(above: NDArray, own: NDArray, below: NDArray, threshold: float, lowest: NDArray) -> None:
-    # all comparisons are made, so that many pairs can be looked at side by side
-    for m in range(len(lowest)):
-        cost = own[m + 1]
-        before = (above[m] > cost) & (above[m + 1] > cost) & (above[m + 2] > cost) & (own[m] > cost)
-        after = (own[m + 2] >= cost) & (below[m] >= cost) & (below[m + 1] >= cost) & (below[m + 2] >= cost)
-        lowest[m] = before & after & (cost < threshold)
+def _lowest(cost: NDArray, m: int, v: int) -> bool:
+    """Whether a pair is the lowest of its hollow; a row's pairs lie one diagonal lower in each column."""
+    own = cost[m, v]
+    above = cost[m - 1, v] > own and cost[m, v - 1] > own and cost[m + 1, v - 2] > own
+    beside = cost[m - 1, v + 1] > own and cost[m + 1, v - 1] >= own
+    return above and beside and cost[m - 1, v + 2] >= own and cost[m, v + 1] >= own and cost[m + 1, v] >= own
 
 
 @numba.njit(cache=True, nogil=True)
 def _append(
     candidates: NDArray,
-    box: tuple[int, int, int, int],
+    band: Band,
     ends: tuple[int, int, int, int],
     rows: Rows,
-    tile: Tile,
+    cost: NDArray,
     pairs: NDArray,
     costs: NDArray,
     total: int,
 ) -> tuple[NDArray, NDArray, int]:
     """Append those that may be transitions and lie between the two ends of rows and of columns."""
-    for n, m in candidates:
-        row, other = box[0] + n, box[2] + m
+    for m, v in candidates:
+        row, other = band.base + band.diagonal + v + m, band.column + m
         if not (ends[0] <= row < ends[1] and ends[2] <= other < ends[3] and _wanted(row, other, rows)):
             continue
         if total == len(costs):
             pairs = np.concatenate((pairs, np.empty_like(pairs)))
             costs = np.concatenate((costs, np.empty_like(costs)))
         pairs[total, 0], pairs[total, 1] = rows.node[row], rows.node[other]
-        costs[total] = tile.cost[n + 1, m + 1]
+        costs[total] = cost[m + 1, v + 2]
         total += 1
     return pairs, costs, total
 

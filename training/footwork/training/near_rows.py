@@ -7,22 +7,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.training.ball_tree import BallTree
-from footwork.training.sketches import SLACK, WIDTH, least_costs
+from footwork.training.sketches import SIZE, SLACK, WIDTH, find_near
 
 BLOCK = 64  # rows
+_TOGETHER = 4  # rows that look for others at once
+_ROWS = 64  # as many as a mask has bits
 
 
 class Forest(NamedTuple):
-    """The arrays of a BallTree for compiled code, and what its members have to be under to be looked at.
+    """The arrays of a BallTree for compiled code, T panels.
 
-    ``shrunk`` are the energies, made smaller for lower bounds. ``limit`` is the threshold for rows, and for balls the
-    square of its root and the radius together; nothing is under it where there is no member.  # (T, WIDTH)
+    ``wanted`` are halves of the energies, made smaller for lower bounds, less what members have to be under to be
+    looked at: the threshold for rows, and for balls the square of its root and the radius together. It is infinite
+    where there is no member.
     """
 
-    panels: NDArray[np.float32]
-    shrunk: NDArray[np.float32]
-    limit: NDArray[np.float32]
-    highest: NDArray[np.int32]
+    panels: NDArray[np.float32]  # (T, SIZE * WIDTH)
+    wanted: NDArray[np.float32]  # (T, WIDTH)
+    highest: NDArray[np.int32]  # (T, WIDTH)
     level: NDArray[np.intp]
 
 
@@ -31,8 +33,8 @@ def forest_of(tree: BallTree, threshold: float) -> Forest:
     # a little more than in double precision, so that rounding to single precision leaves nobody out
     reach = (np.sqrt(threshold) + tree.radius.astype(np.float64)) ** 2 * (1.0 + 1e-6)
     limit = np.where(tree.radius < 0.0, -np.inf, np.minimum(reach, np.finfo(np.float32).max))
-    shrunk = tree.energy * np.float32(1.0 - SLACK)
-    return Forest(tree.panels, shrunk, limit.astype(np.float32), tree.highest, tree.level)
+    wanted = 0.5 * (tree.energy * np.float32(1.0 - SLACK) - limit)
+    return Forest(tree.panels.reshape(len(tree.panels), -1), wanted.astype(np.float32), tree.highest, tree.level)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -58,19 +60,25 @@ def near_masks(
         masks: by row, gets the bits of the rows that it is near to; only rows above ``begin`` do.  # (R,)
         touched: set for each block of BLOCK rows that got some.  # (R // BLOCK + 1,)
     """
-    bounds, child = np.empty(WIDTH, np.float32), np.empty(WIDTH, np.int64)
+    # to compiled code, each look into a tuple of arrays counts references: it is done once
+    panels, wanted, highest, starts = forest
+    query, own = np.zeros(_ROWS * SIZE, np.float32), np.zeros(_ROWS, np.float32)
+    for row in range(begin, min(begin + _ROWS, len(energy))):
+        query[(row - begin) * SIZE : (row - begin + 1) * SIZE] = sketch[row]
+        own[row - begin] = np.float32(0.5) * (energy[row] * np.float32(1.0 - SLACK))
+    near, child = np.empty(_TOGETHER * WIDTH, np.float32), np.empty(WIDTH, np.int64)
     here, there = front[0], front[1]
-    level = len(forest.level) - 2
-    size = forest.level[level + 1] - forest.level[level]
+    level = len(starts) - 2
+    size = starts[level + 1] - starts[level]
     for n in range(size):
-        here[0, n], here[1, n] = forest.level[level] + n, asking
+        here[0, n], here[1, n] = starts[level] + n, asking
     while level >= 0:
-        begun, below, count = forest.level[level], forest.level[max(level - 1, 0)], 0
+        begun, below, count = starts[level], starts[max(level - 1, 0)], 0
         for n in range(size):
             panel = here[0, n]
-            _near_members(begin, here[1, n], sketch, energy, forest, panel, bounds, child)
+            _near_members(query, own, here[1, n], panels[panel], wanted[panel], near, child)
             for v in range(WIDTH):
-                row = forest.highest[panel, v]
+                row = highest[panel, v]
                 if child[v] == 0 or row <= begin:
                     continue
                 if level:
@@ -84,24 +92,19 @@ def near_masks(
 
 @numba.njit(cache=True, nogil=True)
 def _near_members(
-    begin: int,
-    asking: int,
-    sketch: NDArray,
-    energy: NDArray,
-    forest: Forest,
-    panel: int,
-    bounds: NDArray,
-    child: NDArray,
+    query: NDArray, own: NDArray, asking: int, panel: NDArray, wanted: NDArray, near: NDArray, child: NDArray
 ) -> None:
     """For each member of a panel the bits of the rows that it may be near to."""
     child[:] = 0
-    row = begin
-    while asking:
-        if asking & 1:
-            own = energy[row] * np.float32(1.0 - SLACK)
-            least_costs(sketch[row], forest.panels, forest.shrunk, panel, own, bounds)
-            bit = 1 << (row - begin)
+    for first in range(0, _ROWS, _TOGETHER):
+        bits = (asking >> first) & ((1 << _TOGETHER) - 1)
+        if bits:
+            past = first + _TOGETHER
+            find_near(query[first * SIZE : past * SIZE], own[first:past], panel, wanted, near)
             for v in range(WIDTH):
-                child[v] |= bit * (bounds[v] < forest.limit[panel, v])
-        asking >>= 1
-        row += 1
+                found = 0
+                for n in range(_TOGETHER):
+                    found |= (near[n * WIDTH + v] > np.float32(0)) << n
+                child[v] |= (found & bits) << first
+        if asking >> first < (1 << _TOGETHER):
+            return

@@ -7,7 +7,6 @@ n eps times the product of their lengths, which is no more than half of the sum 
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numba
 import numpy as np
@@ -52,26 +51,32 @@ def panels_of(values: NDArray[np.float32], slots: NDArray[np.intp]) -> NDArray[n
     return np.ascontiguousarray(chosen.reshape(-1, WIDTH, values.shape[1]).swapaxes(1, 2))
 
 
-@numba.njit(cache=True, nogil=True)
-def least_costs(query: NDArray, panels: NDArray, energies: NDArray, panel: int, own: Any, bounds: NDArray) -> None:
-    """Lower bounds of s of one row against a panel's members.
+# Products and sums may be one instruction, which rounds less. Several rows go through one call, as what the compiler
+# checks before it computes side by side takes as long as the sums of a row.
+@numba.njit(cache=True, nogil=True, fastmath={"contract"})
+def find_near(query: NDArray, own: NDArray, panel: NDArray, wanted: NDArray, near: NDArray) -> None:
+    """Which of a panel's members may be near to some rows: what is above 0 in ``near``.
 
-    The sums of one member stay in registers while members go side by side.
+    A lower bound of s is e - 2 (r + |t|) with e the energies of both, r the product of their shares of y and of what is
+    left over, and t that of their other shares; so it is under a limit where |t| > (e - limit) / 2 - r.
 
     Args:
-        query: sketch of the one row.  # (SIZE,)
-        panels: those of the members.  # (T, SIZE, WIDTH)
-        energies: of the members, made smaller by SLACK.  # (T, WIDTH)
-        panel: which panel.
-        own: energy of the one row, made smaller too, a single-precision number.
-        bounds: the result.  # (WIDTH,)
+        query: sketches of R rows, one after the other.  # (R * SIZE,)
+        own: half their energies, made smaller by SLACK.  # (R,)
+        panel: sketches of the members, side by side.  # (SIZE * WIDTH,)
+        wanted: half of the members' energies, made smaller by SLACK, less their limits.  # (WIDTH,)
+        near: the result.  # (R * WIDTH,)
     """
-    for v in range(WIDTH):
-        real, imaginary, rest = np.float32(0), np.float32(0), np.float32(0)
-        for c in range(GROUND):
-            real += query[c] * panels[panel, c, v] + query[c + GROUND] * panels[panel, c + GROUND, v]
-            imaginary += query[c] * panels[panel, c + GROUND, v] - query[c + GROUND] * panels[panel, c, v]
-        for c in range(2 * GROUND, SIZE):
-            rest += query[c] * panels[panel, c, v]
-        turned = np.sqrt(real * real + imaginary * imaginary)
-        bounds[v] = own + energies[panel, v] - np.float32(2) * (rest + turned)
+    for row in range(len(own)):
+        for v in range(WIDTH):
+            real, imaginary, rest = np.float32(0), np.float32(0), np.float32(0)
+            for c in range(GROUND):
+                x, z = panel[c * WIDTH + v], panel[(c + GROUND) * WIDTH + v]
+                real += query[row * SIZE + c] * x + query[row * SIZE + c + GROUND] * z
+                imaginary += query[row * SIZE + c] * z - query[row * SIZE + c + GROUND] * x
+            for c in range(2 * GROUND, SIZE):
+                rest += query[row * SIZE + c] * panel[c * WIDTH + v]
+            least = max(own[row] + wanted[v] - rest, np.float32(0))
+            # a row that needs no product at all is near even where there is none
+            turned = real * real + imaginary * imaginary - least * least
+            near[row * WIDTH + v] = turned if least > np.float32(0) else np.float32(1)

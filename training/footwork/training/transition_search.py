@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from footwork.errors import InputError
 from footwork.training.backend import run_tasks
 from footwork.training.ball_tree import tree_of
+from footwork.training.chain_bands import Compared
 from footwork.training.chain_minima import Rows, minima_of_rows
-from footwork.training.chain_tiles import Compared
 from footwork.training.chains import Chains
 from footwork.training.near_rows import Forest, forest_of
 from footwork.training.pair_estimate import estimated_pairs, require_room_for_pairs
