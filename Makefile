@@ -4,6 +4,8 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done)
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+# modules are compiled when they are imported: most of what is installed never is
+INSTALL := $(PIP) install --no-compile --editable
 WORKERS ?= 2
 
 .PHONY: help demo test check lint types examples bench format clean
@@ -16,11 +18,11 @@ $(VENV)/made:
 	@touch $@
 
 $(VENV)/installed: $(VENV)/made pyproject.toml
-	$(PIP) install --editable .
+	$(INSTALL) .
 	@touch $@
 
 $(VENV)/developing: $(VENV)/made pyproject.toml
-	$(PIP) install --editable '.[dev]'
+	$(INSTALL) '.[dev]'
 	@touch $@ $(VENV)/installed
 
 demo: $(VENV)/installed  ## build, serve and drive a character made from embedded motions
@@ -40,7 +42,7 @@ types: $(VENV)/developing
 	$(BIN)/pyright
 
 examples: $(VENV)/developing
-	$(BIN)/python -m pytest tests/docs
+	$(BIN)/python -m pytest tests/docs --numprocesses $(WORKERS) --dist worksteal
 
 bench: $(VENV)/developing  ## run the benchmarks, each prints JSON
 	@for script in benchmarks/*.py; do echo "== $$script" >&2; $(BIN)/python $$script || exit 1; done
