@@ -14,7 +14,7 @@ from footwork.errors import InputError
 from footwork.protocol import messages as m
 from footwork.protocol.codec import encode
 from footwork.runtime.server import Server
-from footwork.viewer.bridge import Bridge
+from footwork.viewer.bridge import Bridge, Shown
 from footwork.viewer.page_files import PageFile
 from served import BUNDLE, serving
 
@@ -24,7 +24,7 @@ SECONDS = 5.0
 
 def against_a_server(test: Callable[[Bridge], Awaitable[None]], **options) -> None:
     async def run(address: str) -> None:
-        async with Bridge(address, FILES, **options) as bridge:
+        async with Bridge([Shown("toy", address)], FILES, **options) as bridge:
             await asyncio.wait_for(test(bridge), 2 * SECONDS)
 
     with serving() as server:
@@ -34,7 +34,7 @@ def against_a_server(test: Callable[[Bridge], Awaitable[None]], **options) -> No
 @asynccontextmanager
 async def page_of(bridge: Bridge, **headers: str) -> AsyncIterator[ClientConnection]:
     origin: Any = headers.pop("Origin", bridge.address.rstrip("/"))
-    address = bridge.address.replace("http", "ws") + "socket"
+    address = bridge.address.replace("http", "ws") + "socket/0"
     async with connect(address, origin=origin, additional_headers=headers, max_queue=None) as page:
         yield page
 
@@ -167,7 +167,9 @@ def test_the_page_is_served_and_nothing_else():
         assert page.startswith("HTTP/1.1 200")
         assert page.endswith("<p>the page</p>")
         assert "default-src 'self'" in page
+        assert (await fetched(bridge, "/about.json")).endswith('{"titles": ["toy"]}')
         assert (await fetched(bridge, "/../pyproject.toml")).startswith("HTTP/1.1 404")
+        assert (await fetched(bridge, "/socket/1")).startswith("HTTP/1.1 404")
         for host in ("evil.example", "127.0.0.1.evil.example", ""):
             assert (await fetched(bridge, "/", host=host)).startswith("HTTP/1.1 403")
 
@@ -183,12 +185,12 @@ def test_each_page_has_its_own_character_until_there_are_no_more():
                 async with page_of(bridge) as third:
                     notice = await heard(third, "bridge")
                     assert notice["state"] == "refused"
-                    assert "2 pages" in notice["message"]
+                    assert "2 characters" in notice["message"]
             await asyncio.sleep(0.05)
             async with page_of(bridge) as again:
                 await heard(again, "welcome")
 
-    against_a_server(test, pages=2)
+    against_a_server(test, characters=2)
 
 
 def test_a_server_that_was_lost_is_found_again():
@@ -210,7 +212,7 @@ def test_a_server_that_was_lost_is_found_again():
                 await running
 
     async def run() -> None:
-        async with Bridge(server.address, FILES) as bridge:
+        async with Bridge([Shown("toy", server.address)], FILES) as bridge:
             await asyncio.wait_for(test(bridge, server.stop), 3 * SECONDS)
 
     with serving() as server:
@@ -220,14 +222,14 @@ def test_a_server_that_was_lost_is_found_again():
 @pytest.mark.parametrize("listen", ["127.0.0.1", "127.0.0.1:x", ":80", "127.0.0.1:99999"])
 def test_where_nothing_can_listen_is_said(listen):
     with pytest.raises(InputError, match=r"127\.0\.0\.1:0"):
-        Bridge("tcp://127.0.0.1:1", FILES, listen=listen)
+        Bridge([], FILES, listen=listen)
 
 
 def test_a_port_in_use_is_said():
     async def test(bridge: Bridge) -> None:
         taken = bridge.address.removeprefix("http://").rstrip("/")
         with pytest.raises(InputError, match=taken):
-            async with Bridge("tcp://127.0.0.1:1", FILES, listen=taken):
+            async with Bridge([], FILES, listen=taken):
                 pass
 
     against_a_server(test)

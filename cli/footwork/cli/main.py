@@ -12,6 +12,7 @@ from footwork.cli.demo import demo
 from footwork.cli.export import export
 from footwork.cli.inspect import inspect
 from footwork.cli.keys import keys
+from footwork.cli.play import play
 from footwork.cli.replay import replay
 from footwork.cli.reproduce import reproduce
 from footwork.cli.score import score
@@ -32,6 +33,7 @@ app.command(demo)
 app.command(build)
 app.command(inspect)
 app.command(serve)
+app.command(play)
 app.command(keys)
 app.command(replay)
 app.command(export)

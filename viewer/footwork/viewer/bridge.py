@@ -1,8 +1,9 @@
 """Between browsers and a server: serves the page over HTTP, and to each page a session of its own over a WebSocket."""
 
 import http
-from collections.abc import Iterable, Mapping
-from typing import Self
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple, Self
 
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.datastructures import Headers
@@ -15,9 +16,11 @@ from footwork.viewer.page import FloodError, Page, told
 from footwork.viewer.page_files import PageFile
 from footwork.viewer.server_link import ServerLink
 
-SOCKET = "/socket"
-"""Where a page's WebSocket connects."""
-PAGES = 8
+SOCKET = "/socket/"
+"""Where a page's WebSocket connects, followed by the number of the server."""
+ABOUT = "/about.json"
+"""Where the page asks whom it shows."""
+CHARACTERS = 8
 # The protocol's limit is 1,024, which is answered; beyond this a connection is closed.
 _MOST_BYTES = 8192
 _TRY_LATER, _TOO_MUCH = 1013, 1008
@@ -30,15 +33,22 @@ _HEADERS = {
 }
 
 
+class Shown(NamedTuple):
+    """A server whose character is played: a title for people, and its address."""
+
+    title: str
+    address: str
+
+
 class Bridge:
     """Listens as long as its ``async with`` block lasts.
 
     Args:
-        server: the footwork server's address.
+        servers: whose characters a page shows side by side, all by the same keys.
         files: the page's files by their path.
         listen: host and port, such as ``127.0.0.1:0``; port 0 takes any free one.
         hosts: further names that the page may be opened by, such as ``game.local:8000``.
-        pages: how many pages may have a character at once; one more is told so.
+        characters: how many may be played at once over all pages; one more is refused with a message.
         curve: keys for a server that lets in only those it knows.
 
     Attributes:
@@ -50,17 +60,20 @@ class Bridge:
 
     def __init__(
         self,
-        server: str,
+        servers: Sequence[Shown],
         files: Mapping[str, PageFile],
         *,
         listen: str = "127.0.0.1:0",
         hosts: Iterable[str] = (),
-        pages: int = PAGES,
+        characters: int = CHARACTERS,
         curve: CurveKeys | None = None,
     ) -> None:
-        self._server, self._files, self._listen, self._curve = server, files, listen, curve
+        about = json.dumps({"titles": [server.title for server in servers]}).encode()
+        self._files = dict(files) | {ABOUT: PageFile("application/json", about)}
+        self._servers = {f"{SOCKET}{number}": server.address for number, server in enumerate(servers)}
+        self._listen, self._curve = listen, curve
         self._host, self._port = host_and_port(listen)
-        self._more_hosts, self._most, self._pages = tuple(hosts), pages, 0
+        self._more_hosts, self._most, self._played = tuple(hosts), characters, 0
         self.address = ""
 
     async def __aenter__(self) -> Self:
@@ -85,8 +98,8 @@ class Bridge:
         """The answer to a request over HTTP, None for a page's socket to be opened."""
         if not self._hosts.has_host(_only(request.headers, "Host")):
             return _said(http.HTTPStatus.FORBIDDEN, f"this page is at {self._hosts}, nowhere else\n")
-        path = request.path.partition("?")[0]
-        if path != SOCKET:
+        path = _path(request)
+        if path not in self._servers:
             return self._file(path)
         if not self._hosts.has_origin(_only(request.headers, "Origin")):
             return _said(http.HTTPStatus.FORBIDDEN, f"only pages of {self._hosts} may play here\n")
@@ -99,17 +112,18 @@ class Bridge:
         return _response(http.HTTPStatus.OK, file.media_type, file.content)
 
     async def _play(self, socket: ServerConnection) -> None:
-        if self._pages >= self._most:
-            await socket.send(told("refused", f"{self._most} pages have a character each, which is all there are"))
+        if self._played >= self._most:
+            await socket.send(told("refused", f"{self._most} characters are being played, which is all that may be"))
             await socket.close(_TRY_LATER, "too many pages")
             return
-        self._pages += 1
+        self._played += 1
         try:
-            await Page(socket, ServerLink(self._server, "live view", self._curve)).play()
+            address = self._servers[_path(socket.request)]
+            await Page(socket, ServerLink(address, "live view", self._curve)).play()
         except FloodError:
             await socket.close(_TOO_MUCH, "too many messages")
         finally:
-            self._pages -= 1
+            self._played -= 1
 
 
 def host_and_port(listen: str) -> tuple[str, int]:
@@ -122,6 +136,10 @@ def host_and_port(listen: str) -> tuple[str, int]:
     if not host or not port.isdecimal() or int(port) > 65535:
         raise InputError("expected HOST:PORT, such as 127.0.0.1:0", repr(listen))
     return host.strip("[]"), int(port)
+
+
+def _path(request: Request | None) -> str:
+    return "" if request is None else request.path.partition("?")[0]
 
 
 def _only(headers: Headers, name: str) -> str | None:

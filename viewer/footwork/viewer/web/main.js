@@ -1,36 +1,37 @@
-// The live view: sessions, what the player asks of them, and what is drawn.
+// The live view: whom it shows, what the player asks of them, and what is drawn.
 import { Camera } from "./cameras.js";
-import { Card, put } from "./card.js";
-import { Figure } from "./figure.js";
+import { put } from "./card.js";
 import { gamepad } from "./gamepad.js";
 import { Graph } from "./graphs.js";
 import { Keyboard } from "./keyboard.js";
+import { Notices } from "./notices.js";
+import { Player } from "./player.js";
 import { Quality } from "./quality.js";
 import { Series } from "./series.js";
-import { Session } from "./session.js";
 import { Stage } from "./stage.js";
 import { Transport } from "./transport.js";
 import { states, wishOf } from "./wish.js";
 
-const COLORS = { shirt: 0x5d88a6, trousers: 0x646d78, trail: 0xff9d2e };
-const ERROR_MS = 4000;
 const TOLD_MS = 80; // between updates of what is told beside the picture
 const at = (id) => document.getElementById(id);
 
+const { titles } = await (await fetch("about.json")).json();
 const stage = new Stage(at("view"));
 const camera = new Camera(stage.camera, stage.canvas);
-const figure = new Figure(stage.scene, COLORS);
-const card = new Card(at("figures"), "");
-const session = new Session("/socket", hear);
-const latencyGraph = new Graph(at("graphs"), "key to pose", "ms", 120, 34);
-const tickGraph = new Graph(at("graphs"), "tick to tick", "ms", 90, 1000 / 30);
-const frameGraph = new Graph(at("graphs"), "drawn every", "ms", 60, 1000 / 60);
-const frames = new Series(300);
 const quality = new Quality(stage);
+const notices = new Notices();
+const players = titles.map((title, number) => new Player(stage, at("figures"), title, number, hear));
+const [{ session, figure }] = players; // whom the camera follows and the graphs tell of
+const frames = new Series(300);
+const graphs = [
+  [new Graph(at("graphs"), "key to pose", "ms", 120, 34), session.latency],
+  [new Graph(at("graphs"), "tick to tick", "ms", 90, 1000 / 30), session.gaps],
+  [new Graph(at("graphs"), "drawn every", "ms", 60, 1000 / 60), frames],
+];
 const transport = new Transport(
-  () => [session.history],
+  () => players.map((player) => player.session.history),
   () => camera.yaw,
-  complain
+  (text) => notices.complain(text)
 );
 const once = {
   KeyC: changeCamera,
@@ -39,7 +40,7 @@ const once = {
   Period: () => transport.step(1),
   KeyH: () => (at("help").hidden = !at("help").hidden),
 };
-const keyboard = new Keyboard(once, (when) => ask(when));
+const keyboard = new Keyboard(once, ask);
 at("camera").onclick = changeCamera;
 
 function changeCamera() {
@@ -48,41 +49,30 @@ function changeCamera() {
 }
 
 function hear({ welcome, lost, problem }) {
-  if (welcome) greet(welcome);
-  if (lost) notify(lost);
-  if (problem) complain(problem);
+  if (lost) notices.lose(lost);
+  if (problem) notices.complain(problem);
+  if (!welcome) return;
+  notices.find();
+  at("states").replaceChildren(...states(welcome).flatMap((name, k) => [bold(k + 1), ` ${name} `]));
 }
 
-function greet(welcome) {
-  at("notice").hidden = true;
-  figure.dress(welcome);
-  const asked = states(welcome).map((name, k) => `<b>${k + 1}</b> ${name.replace(/[<&]/g, "")}`);
-  at("states").innerHTML = asked.join(" ");
-  put(card.title, welcome.attribution.join(" ") || "motions that were generated");
-}
-
-function notify(text) {
-  put(at("notice"), text);
-  at("notice").hidden = false;
-}
-
-function complain(text) {
-  put(at("error"), text);
-  at("error").hidden = false;
-  clearTimeout(complain.timer);
-  complain.timer = setTimeout(() => (at("error").hidden = true), ERROR_MS);
+function bold(text) {
+  return Object.assign(document.createElement("b"), { textContent: text });
 }
 
 // when: of the event that changed what is held, undefined where only time has passed.
 function ask(when) {
-  if (!session.welcome || transport.player) return;
-  session.ask(wishOf(session.welcome, camera.yaw, keyboard, gamepad()), when);
+  if (transport.player) return;
+  const pad = gamepad();
+  for (const { session: one, welcome } of players) {
+    if (welcome) one.ask(wishOf(welcome, camera.yaw, keyboard, pad), when);
+  }
 }
 
 function replay(seconds) {
   const { keys, yaw } = transport.player.advance(transport.paused ? 0 : seconds);
   camera.yaw = yaw;
-  session.ask({ keys: { view_yaw: yaw, ...keys } });
+  for (const player of players) player.session.ask({ keys: { view_yaw: yaw, ...keys } });
 }
 
 function turnByPad(seconds) {
@@ -91,36 +81,30 @@ function turnByPad(seconds) {
 }
 
 let before = performance.now();
+let toldAt = 0;
 function draw(now) {
-  const seconds = Math.min(0.25, (now - before) / 1000);
-  if (now > before) frames.add(now - before);
+  const seconds = Math.min(0.25, Math.max(0, now - before) / 1000);
+  frames.add(now - before);
   quality.note(now - before);
   before = now;
   turnByPad(seconds);
-  if (transport.player && session.welcome) replay(seconds);
+  if (transport.player) replay(seconds);
   else ask();
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
-  if (session.welcome) show(seconds, now);
+  for (const player of players) player.show(seconds);
+  if (now - toldAt > TOLD_MS) tell(now);
   camera.follow(figure.place, figure.facing, seconds);
   stage.draw(camera.target);
   requestAnimationFrame(draw);
 }
 
-function show(seconds, now) {
-  figure.show(session.history.advance(seconds, session.welcome.frame_rate));
-  if (now - toldAt > TOLD_MS) tell(now);
-}
-
-let toldAt = 0;
 function tell(now) {
   toldAt = now;
-  card.show(figure, session.history, session.welcome);
-  latencyGraph.show(session.latency);
-  tickGraph.show(session.gaps);
-  frameGraph.show(frames);
+  for (const player of players) player.tell();
+  for (const [graph, series] of graphs) graph.show(series);
   transport.show();
 }
 
 requestAnimationFrame(draw);
 // For whoever looks from outside, such as a test.
-globalThis.footwork = { session, figure, camera, frames, transport, stage };
+globalThis.footwork = { players, session, figure, camera, frames, transport, stage };

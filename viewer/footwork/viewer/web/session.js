@@ -10,7 +10,9 @@ const KEPT = 300;
 
 export class Session {
   // hear: called with messages for a person: {lost: text} or {problem: text}, and with {welcome} when there is one.
-  constructor(path, hear) {
+  // x: where it stands at first, metres.
+  constructor(path, x, hear) {
+    this.x = x;
     this.hear = hear;
     this.history = new History();
     this.latency = new Series(KEPT); // ms from a key, or a command without one, to the first pose that it changed
@@ -54,7 +56,7 @@ export class Session {
   // Where it was, so that a server that was started again shows it where it stood.
   #spawn() {
     const last = this.history.newest;
-    const [x, , z] = last ? last.root : [0, 0, 0];
+    const [x, , z] = last ? last.root : [this.x, 0, 0];
     this.#say({ type: "spawn", character: CHARACTER, x, z, yaw: last ? last.facing : 0 });
   }
 

@@ -1,0 +1,115 @@
+"""``footwork play``: a character that one steers oneself, in a browser or in a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from footwork.cli.live_view import live_view_files, show_live_view
+from footwork.cli.served import Served, serving
+from footwork.errors import InputError
+
+if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help loads nothing more
+    from footwork.protocol.curve import CurveKeys
+
+Off = Parameter(negative=())
+_ADDRESSES = ("tcp://", "ipc://")
+
+
+def play(
+    target: str,
+    other: str | None = None,
+    /,
+    *,
+    text: Annotated[bool, Off] = False,
+    listen: str = "127.0.0.1:0",
+    host: Annotated[Sequence[str], Parameter(negative=())] = (),
+    rate: int = 60,
+    seconds: float | None = None,
+    open_browser: Annotated[bool, Parameter(name="--open")] = True,
+    key: Path | None = None,
+    server_key: Path | None = None,
+) -> None:
+    """Play a bundle's character, or one of a server that runs, until interrupted.
+
+    Prints the address of the live view and opens it in a browser where there is a display.
+
+    Example: footwork play walker.footwork
+
+    Args:
+        target: A bundle, or a server's address such as tcp://127.0.0.1:5555.
+        other: Another one, to be played side by side by the same keys.
+        text: Play in the terminal instead of a browser.
+        listen: Where the page is served; port 0 takes any free one. Only this machine reaches it unless told otherwise.
+        host: A further name that the page may be opened by, such as game.local:8000; may be given several times.
+        rate: Frames sent a second: 30, 60 or 120, where a bundle is served.
+        seconds: Stop by itself after this long.
+        open_browser: Open a browser; --no-open only prints the address.
+        key: The secret key file of this client, for a server started with --curve.
+        server_key: That server's public key file.
+    """
+    if seconds is not None and not seconds > 0.0:
+        raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
+    curve = _curve(key, server_key)
+    files = None if text else live_view_files()
+    targets = [target] if other is None else [target, other]
+    with _servers(targets, rate) as (addresses, served):
+        if files is None:
+            from footwork.viewer.text_view import TextView
+
+            TextView(addresses[0], curve).play(seconds)
+            return
+
+        from footwork.viewer.bridge import Shown
+
+        def look() -> None:
+            for server in served:
+                server.require_running()
+
+        show_live_view(
+            [Shown(_title(target), address) for target, address in zip(targets, addresses, strict=True)],
+            files,
+            listen=listen,
+            hosts=host,
+            curve=curve,
+            seconds=seconds,
+            open_browser=open_browser,
+            look=look,
+        )
+
+
+@contextmanager
+def _servers(targets: Sequence[str], rate: int) -> Iterator[tuple[list[str], list[Served]]]:
+    """Addresses of all targets, and servers of those that are bundles."""
+    with ExitStack() as held:
+        addresses, served = [], []
+        for target in targets:
+            if not target.startswith(_ADDRESSES):
+                served.append(held.enter_context(serving(_bundle(target), rate)))
+            addresses.append(target if target.startswith(_ADDRESSES) else served[-1].address)
+        yield addresses, served
+
+
+def _title(target: str) -> str:
+    return target if target.startswith(_ADDRESSES) else Path(target).name
+
+
+def _bundle(target: str) -> Path:
+    path = Path(target)
+    if not path.is_file():
+        raise InputError("no such file; expected a bundle, or a server's address such as tcp://127.0.0.1:5555", path)
+    return path
+
+
+def _curve(key: Path | None, server_key: Path | None) -> CurveKeys | None:
+    from footwork.protocol.curve import CurveKeys
+
+    if key is None and server_key is None:
+        return None
+    if key is None or server_key is None:
+        raise InputError("expected both or neither", "--key and --server-key")
+    return CurveKeys.read(key, server_key)

@@ -1,0 +1,40 @@
+// One of the characters side by side: its session, its figure on the stage, and its card.
+import { Card, put } from "./card.js";
+import { Figure } from "./figure.js";
+import { Session } from "./session.js";
+
+const COLORS = [
+  { shirt: 0x5d88a6, trousers: 0x646d78, trail: 0xff9d2e },
+  { shirt: 0xa86a5d, trousers: 0x70665e, trail: 0x43b0e8 },
+];
+const APART = 1.4; // metres between two at the start
+
+export class Player {
+  // number: which server of the bridge; hear: called with {lost}, {problem} or {welcome} for people.
+  constructor(stage, cards, title, number, hear) {
+    this.title = title;
+    this.figure = new Figure(stage.scene, COLORS[number % COLORS.length]);
+    this.card = new Card(cards, title);
+    this.session = new Session(`/socket/${number}`, -APART * number, (said) => this.#hear(said, hear));
+  }
+
+  get welcome() {
+    return this.session.welcome;
+  }
+
+  #hear(said, hear) {
+    if (said.welcome) {
+      this.figure.dress(said.welcome);
+      put(this.card.title, [this.title, ...said.welcome.attribution].join(" · "));
+    }
+    hear(said);
+  }
+
+  show(seconds) {
+    if (this.welcome) this.figure.show(this.session.history.advance(seconds, this.welcome.frame_rate));
+  }
+
+  tell() {
+    if (this.welcome) this.card.show(this.figure, this.session.history, this.welcome);
+  }
+}
