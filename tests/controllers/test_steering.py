@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from footwork.controllers.controller import Situations
-from footwork.controllers.steering import SteeringController, WrongQuestion
+from footwork.controllers.questions import WrongQuestion
+from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.actions import actions_of
 from footwork.motion.body import default_body

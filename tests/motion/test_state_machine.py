@@ -14,6 +14,7 @@ def test_the_fighting_example_is_the_published_machine():
     assert machine.allowed == {(0, 0), (0, 1), (0, 2), (1, 0), (2, 0)}
     assert machine.at_once == ((0, 1), (0, 2))
     assert machine.shadowing == 0
+    assert (machine.headed, machine.one_shot) == (("locomotion",), ("attack", "evade"))
     assert machine.states_of(["attack", "", "locomotion", "evade"]) == [1, NO_STATE, 0, 2]
 
 
@@ -54,6 +55,7 @@ def test_a_state_may_show_several_labels():
             "states.a: 'c' is to be reached at once, expected it in its 'to' as well",
         ),
         ("[states.a]\nto = ['a']\nshadowing = 1", "states.a: shadowing is 1, expected true or false"),
+        ("[states.a]\nto = ['a']\nheaded = 'no'", "states.a: headed is 'no', expected true or false"),
         (
             "[states.a]\nto = ['a', 'b']\n[states.b]\nto = ['a']\nshadowing = true",
             "states.b: no transitions within it, but it is shadowing: add 'b' to its 'to'",

@@ -50,6 +50,13 @@ def test_the_graph_and_its_footwork_can_be_walked_without_end(built):
     np.testing.assert_array_equal(part, np.flatnonzero(notes.state[notes.segment] == 0))
 
 
+def test_its_behaviours_are_its_states(built):
+    graph, notes, task = built[0].graph, built[0].annotation, built[0].table("steering").task
+    assert graph.behaviours == task.behaviours == FIGHTING.names
+    np.testing.assert_array_equal(graph.behaviour, notes.state[notes.segment])
+    assert (task.facing, task.one_shot) == (("locomotion",), ("attack", "evade"))
+
+
 def test_wind_ups_keep_their_label_in_the_state_of_the_strike(built):
     graph, notes = built[0].graph, built[0].annotation
     of_label = np.array(FIGHTING.states_of(graph.labels))[graph.label]
@@ -71,7 +78,8 @@ def test_the_report_tells_states_steps_and_delays(built):
     for pair in report["at_once"]:
         assert 0.0 <= pair["nearest_s"] <= pair["mean_s"] <= pair["longest_s"]
     assert {"states", "ways"} <= set(report["seconds"])
-    assert report["policy"] is None
+    assert report["policy"]["converged"]
+    assert report["missing_behaviours"] == []
 
 
 def test_the_state_that_says_so_gets_a_table_of_shadowing(built):
@@ -197,9 +205,10 @@ def test_more_ways_than_memory_has_room_for_are_refused(built, monkeypatch):
 
 def test_motions_without_an_attack_are_refused_before_the_work_begins():
     told = []
+    options = replace(ANNOTATED, threshold=1.0)
     with pytest.raises(InputError, match=r"states.locomotion: no frame shows it.*\(there are 'idle', 'walk'\)"):
         build_bundle(
-            SampleMotions(sample_clips(2, 60)), ANNOTATED, machine=FIGHTING, progress=lambda *what: told.append(what)
+            SampleMotions(sample_clips(2, 60)), options, machine=FIGHTING, progress=lambda *what: told.append(what)
         )
     assert told == []
 

@@ -12,7 +12,6 @@ from footwork.errors import InputError
 
 if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help answers at once
     from footwork.motion.bundle import Bundle
-    from footwork.motion.graph import MotionGraph
     from footwork.motion.table import PolicyTable
     from footwork.study.contender import Contender
 
@@ -91,15 +90,15 @@ class Choice:
             return makers[self.controller](bundle)
         return self._matching(bundle, reading)
 
-    def steering(self, graph: MotionGraph, table: PolicyTable) -> Contender:
+    def steering(self, bundle: Bundle, table: PolicyTable) -> Contender:
         """The controller that plays a policy of its own."""
-        from footwork.controllers.steering import SteeringController
+        from footwork.controllers.bundle_controller import bundle_controller
 
         table = table if self.shortlist else table.unlisted
-        return SteeringController(graph, table, exact_facing=self.exact_facing)
+        return bundle_controller(bundle, table=table, exact_facing=self.exact_facing)
 
     def _table(self, bundle: Bundle) -> Contender:
-        return self.steering(bundle.graph, bundle.table("steering"))
+        return self.steering(bundle, bundle.table("steering"))
 
     def _greedy(self, bundle: Bundle) -> Contender:
         from footwork.study.greedy import greedy

@@ -77,4 +77,4 @@ def _left_out(bundle: Bundle, traces: Sequence[Trace], choice: Choice, tell: Rep
     if not choice.leave_one_out:
         return {}
     tables = tables_without(bundle.graph, bundle.table("steering"), traces, tell)
-    return {digest: choice.steering(bundle.graph, table) for digest, table in tables.items()}
+    return {digest: choice.steering(bundle, table) for digest, table in tables.items()}

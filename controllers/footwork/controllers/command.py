@@ -1,7 +1,7 @@
 """Commands: from held keys, or heading and behaviour outright, to what a controller is asked for."""
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -50,6 +50,8 @@ class Vocabulary:
         behaviours: all that commands number, in order (``MotionGraph.behaviours``).
         present: those that some frame shows (``SteeringController.present``).
         speeds: the slowest and the fastest, m/s, of those that take a speed (``SteeringController.speeds``).
+        one_shot: those that are done once when they are asked for (``SteeringController.one_shot``).
+        rest: what held keys ask for where they would ask for one that no frame shows; refused where empty.
     """
 
     def __init__(
@@ -57,7 +59,11 @@ class Vocabulary:
         behaviours: tuple[str, ...],
         present: Collection[str],
         speeds: Mapping[str, tuple[float, float]] = MappingProxyType({}),
+        *,
+        one_shot: Sequence[str] = ONE_SHOT,
+        rest: str = "",
     ) -> None:
+        self._one_shot, self._rest = frozenset(one_shot), rest
         self.present = tuple(name for name in behaviours if name in present)
         self.with_speed = tuple(name for name in self.present if name in speeds)
         self._usual = {name: 0.5 * sum(speeds[name]) for name in self.with_speed}
@@ -101,6 +107,7 @@ class Vocabulary:
         _require_finite(view_yaw, "view_yaw")
         once = self.index(one_shot) if one_shot else NONE
         lasting = behaviour_of_keys(forward, strafe, run, self.present)
+        lasting = lasting if lasting in self._index else self._rest or lasting
         heading = float(heading_of_keys(view_yaw, forward, strafe))
         return Command(heading, self.index(lasting), once, self._usual.get(lasting))
 
@@ -119,7 +126,7 @@ class Vocabulary:
         index = self.index(behaviour)
         if speed is not None:
             self._check_speed(behaviour, speed)
-        return Command(heading, NONE, index) if behaviour in ONE_SHOT else Command(heading, index, speed=speed)
+        return Command(heading, NONE, index) if behaviour in self._one_shot else Command(heading, index, speed=speed)
 
     def _check_speed(self, behaviour: str, speed: float) -> None:
         _require_speed(speed)

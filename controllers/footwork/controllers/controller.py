@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import Moves
+from footwork.motion.task import HEADED, ONE_SHOT
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +74,16 @@ class Controller(Protocol):
 def speeds_of(controller: Controller) -> dict[str, tuple[float, float]]:
     """The slowest and the fastest, m/s, that behaviours can be asked for; none of a controller that takes no speeds."""
     return getattr(controller, "speeds", {})
+
+
+def headed_of(controller: Controller) -> tuple[str, ...]:
+    """The behaviours that a heading counts in; the usual ones of a controller that does not say."""
+    return getattr(controller, "headed", HEADED)
+
+
+def one_shots_of(controller: Controller) -> tuple[str, ...]:
+    """The behaviours that are done once when they are asked for; the usual ones of a controller that does not say."""
+    return getattr(controller, "one_shot", ONE_SHOT)
 
 
 def present_behaviours(graph: MotionGraph) -> tuple[str, ...]:

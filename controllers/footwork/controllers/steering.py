@@ -6,7 +6,8 @@ from numpy.typing import NDArray
 
 from footwork.controllers.controller import Situations, present_behaviours
 from footwork.controllers.policy import Policy
-from footwork.errors import FootworkError, InputError
+from footwork.controllers.questions import require_indices
+from footwork.errors import InputError
 from footwork.motion.actions import Actions, actions_of, onward_edges
 from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import MotionGraph
@@ -15,19 +16,6 @@ from footwork.motion.moves import Moves, fill_moves
 from footwork.motion.requests import ANY_SPEED, Requests, asked_for
 from footwork.motion.table import PolicyTable
 from footwork.motion.turn_warp import turn_about, turn_warp
-
-
-class WrongQuestion(FootworkError):  # noqa: N818  (it reads as what happened)
-    """A controller was asked about a node or a behaviour that its table does not have."""
-
-
-@numba.njit(cache=True, nogil=True)
-def first_outside(index: NDArray, length: int) -> int:
-    """The first entry that is no index into ``length`` things, -1 for none."""
-    for place in range(index.shape[0]):
-        if not 0 <= index[place] < length:
-            return place
-    return -1
 
 
 @numba.njit(cache=True, nogil=True)
@@ -236,6 +224,16 @@ class SteeringController:
         }
 
     @property
+    def headed(self) -> tuple[str, ...]:
+        """The behaviours that a heading counts in."""
+        return self.table.task.facing
+
+    @property
+    def one_shot(self) -> tuple[str, ...]:
+        """The behaviours that are done once when they are asked for."""
+        return self.table.task.one_shot
+
+    @property
     def table_bytes(self) -> int:
         """The size of what it looks things up in."""
         return self.table.nbytes
@@ -257,8 +255,8 @@ class SteeringController:
             WrongQuestion: for a node or a behaviour that the table does not have.
         """
         node, behaviour = situations.node, situations.behaviour
-        self._check(node, self.graph.node_count, "node")
-        self._check(behaviour, len(self.behaviours), "behaviour")
+        require_indices(node, self.graph.node_count, "node")
+        require_indices(behaviour, len(self.behaviours), "behaviour")
         self._make_room(max(len(node), int(situations.slot.max(initial=-1)) + 1))
         steer(
             self.policy,
@@ -302,8 +300,3 @@ class SteeringController:
                 worth = self.table.values[:, index].mean(axis=1, dtype=np.float64)
                 return int(np.argmax(np.where(choice, worth, -np.inf)))
         return 0
-
-    def _check(self, index: NDArray, length: int, name: str) -> None:
-        wrong = first_outside(index, length)
-        if wrong >= 0:
-            raise WrongQuestion(f"{name} {index[wrong]} of character {wrong}, expected 0 to {length - 1}")

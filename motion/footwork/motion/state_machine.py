@@ -13,7 +13,9 @@ Read from a TOML file with a table for each state, the one that characters begin
 A state shows the frames with its ``labels``, or those labelled with its own name where it gives none. Its frames follow
 one another as they were captured; those of the states in ``to`` may follow by transitions too, and so may its own if it
 names itself. States named ``at_once`` are to be reached as soon as possible from wherever in it a character is. One
-state may say ``shadowing = true``: in it a character keeps its distance from an opponent and faces it.
+state may say ``shadowing = true``: in it a character keeps its distance from an opponent and faces it. A state without
+transitions of its own is done once when it is asked for, from its beginning to its end; others last, and are asked for
+with a heading that counts where they say ``headed = true``.
 """
 
 from collections.abc import Iterable, Sequence
@@ -27,7 +29,7 @@ from footwork.motion.toml_file import only_keys, read_toml, shown
 
 NO_STATE = -1
 MOST_STATES = 64
-_KEYS = ("labels", "to", "at_once", "shadowing")
+_KEYS = ("labels", "to", "at_once", "shadowing", "headed")
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,7 @@ class State:
         to: names of the states that may follow; its own for transitions within it.
         at_once: those of them that every frame of it needs a quick way to.
         shadowing: whether characters in it keep their distance from an opponent and face it.
+        headed: whether whoever asks for it means a heading, too.
     """
 
     name: str
@@ -47,6 +50,7 @@ class State:
     to: tuple[str, ...]
     at_once: tuple[str, ...] = ()
     shadowing: bool = False
+    headed: bool = False
 
 
 @dataclass(frozen=True)
@@ -94,6 +98,16 @@ class StateMachine:
     def at_once(self) -> tuple[tuple[int, int], ...]:
         """Pairs of states of which the second is to be reached quickly from everywhere in the first, in order."""
         return tuple(sorted(self._pairs(state.at_once for state in self.states)))
+
+    @property
+    def headed(self) -> tuple[str, ...]:
+        """Of the states that are asked for with a heading."""
+        return tuple(state.name for state in self.states if state.headed)
+
+    @property
+    def one_shot(self) -> tuple[str, ...]:
+        """Of the states that are done once when they are asked for: those without transitions within them."""
+        return tuple(state.name for state in self.states if state.name not in state.to)
 
     @property
     def shadowing(self) -> int:
@@ -197,10 +211,15 @@ def _state(name: str, values: Any, where: str) -> State:
     only_keys(values, _KEYS, where)
     labels = _words(values, "labels", where) if "labels" in values else (name,)
     at_once = _words(values, "at_once", where) if "at_once" in values else ()
-    shadowing = values.get("shadowing", False)
-    if not isinstance(shadowing, bool):
-        raise InputError(f"shadowing is {shown(shadowing)}, expected true or false", where)
-    return State(name, labels, _words(values, "to", where), at_once, shadowing)
+    shadowing, headed = (_truth(values, key, where) for key in ("shadowing", "headed"))
+    return State(name, labels, _words(values, "to", where), at_once, shadowing, headed)
+
+
+def _truth(values: dict[str, Any], key: str, where: str) -> bool:
+    value = values.get(key, False)
+    if not isinstance(value, bool):
+        raise InputError(f"{key} is {shown(value)}, expected true or false", where)
+    return value
 
 
 def _words(values: dict[str, Any], key: str, where: str) -> tuple[str, ...]:

@@ -48,6 +48,8 @@ class SteeringTask:
         speed_sigma: width of the Gaussian that judges a speed, as a part of the one asked for or of 1 m/s where that
             is slower.
         speed_weight: the part of control quality that hangs on the speed where one is asked for.
+        facing: those behaviours that are judged by the heading too; names that are not asked for are passed over.
+        one_shot: those that are done once when they are asked for; likewise.
 
     Raises:
         InputError: for no behaviours, fewer than four headings, widths or a weight not above zero, a discount outside
@@ -70,6 +72,8 @@ class SteeringTask:
     speeds: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     speed_sigma: float = 0.1
     speed_weight: float = 0.75
+    facing: tuple[str, ...] = HEADED
+    one_shot: tuple[str, ...] = ONE_SHOT
 
     def __post_init__(self) -> None:
         _require(len(self.behaviours) > 0, "no behaviours, expected at least one")
@@ -95,7 +99,7 @@ class SteeringTask:
 
     def _check_speeds(self) -> None:
         _require(0.0 <= self.speed_weight <= 1.0, f"speed_weight is {self.speed_weight}, expected 0 to 1")
-        headed = [name for name in self.behaviours if name in HEADED]
+        headed = [name for name in self.behaviours if name in self.facing]
         for name, levels in self.speeds.items():
             _require(name in headed, f"speeds of {name!r}, expected only of {', '.join(headed) or 'no behaviour'}")
             many = 1 <= len(levels) <= MOST_SPEED_LEVELS
@@ -123,7 +127,7 @@ class SteeringTask:
     @property
     def headed(self) -> NDArray[np.bool_]:
         """Which behaviours are judged by their heading too.  # (B,)"""
-        return np.array([behaviour in HEADED for behaviour in self.behaviours])
+        return np.array([behaviour in self.facing for behaviour in self.behaviours])
 
     @property
     def additive(self) -> bool:

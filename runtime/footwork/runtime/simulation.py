@@ -8,13 +8,12 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.controllers.bundle_controller import bundle_controller
 from footwork.controllers.command import Command, Vocabulary
-from footwork.controllers.controller import Controller, speeds_of
+from footwork.controllers.controller import Controller, one_shots_of, speeds_of
 from footwork.controllers.orders import Orders
-from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
-from footwork.motion.task import ONE_SHOT
 from footwork.runtime import recording as r
 from footwork.runtime.pose_frames import PoseFrames
 from footwork.runtime.recorder import Recorder, state_digest
@@ -24,7 +23,6 @@ from footwork.runtime.ticks import ticks_of
 from footwork.runtime.warm import warm_kernels
 from footwork.runtime.world import World
 
-STEERING = "steering"
 _IDLE = "stop"
 LONGEST_PLAY = r.LONGEST_GAP - r.STATE_TICKS
 """Ticks that may be made at once while a recording is made."""
@@ -38,8 +36,8 @@ class Simulation:
         capacity: how many characters there is room for.
         inertialise: whether transitions are smoothed.
         foot_lock: whether feet that stand stay where they are shown.
-        controller: what chooses moves, on the bundle's graph or on one of its own; steering by the bundle's table where
-            not given.
+        controller: what chooses moves, on the bundle's graph or on one of its own; the bundle's own where not
+            given (``bundle_controller``).
 
     Attributes:
         tick: the tick last made, from 0.
@@ -60,7 +58,7 @@ class Simulation:
         foot_lock: bool = True,
         controller: Controller | None = None,
     ) -> None:
-        self._controller: Controller = controller or SteeringController(bundle.graph, bundle.table(STEERING))
+        self._controller: Controller = controller or bundle_controller(bundle)
         graph = self._controller.graph
         self.bundle = bundle
         self.tick = 0
@@ -70,7 +68,9 @@ class Simulation:
             raise InputError("no frame shows any behaviour, expected at least one", graph.where)
         self._idle = _IDLE if _IDLE in self.behaviours else self.behaviours[0]
         self.speeds = speeds_of(self._controller)
-        self.vocabulary = Vocabulary(graph.behaviours, self.behaviours, self.speeds)
+        self._one_shot = one_shots_of(self._controller)
+        rest = self._idle if bundle.annotation is not None else ""
+        self.vocabulary = Vocabulary(graph.behaviours, self.behaviours, self.speeds, one_shot=self._one_shot, rest=rest)
         self._orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._shown_as = self._numbering()
@@ -107,7 +107,7 @@ class Simulation:
         start = behaviour or self._idle
         slot = self.world.spawn(self._start[start] if node is None else node, x, z, yaw)
         self._controller.begin(slot)
-        self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in ONE_SHOT else start))
+        self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in self._one_shot else start))
         self._record(r.Spawned, slot, float(x), float(z), float(yaw), behaviour, -1 if node is None else node)
         return slot
 

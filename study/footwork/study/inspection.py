@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.controllers.steering import SteeringController
+from footwork.controllers.bundle_controller import bundle_controller
 from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
-from footwork.motion.graph import ARRAYS, MotionGraph
+from footwork.motion.graph import ARRAYS
 from footwork.motion.table import PolicyTable
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
 from footwork.study.graph_report import graph_report
@@ -46,15 +46,15 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
         **(state_report(bundle.annotation) if bundle.annotation else {}),
         **graph_report(graph, bundle.provenance.get("counts", {}).get("frames")),
         "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
-        "responsiveness": _responsiveness(graph, steering) if steering else None,
+        "responsiveness": _responsiveness(bundle, steering) if steering else None,
         "tables": {name: _table(table) for name, table in bundle.tables.items()},
         "attribution": list(bundle.attribution),
         "provenance": dict(bundle.provenance),
     }
 
 
-def _responsiveness(graph: MotionGraph, table: PolicyTable) -> dict[str, Any]:
-    controller = SteeringController(graph, table)
+def _responsiveness(bundle: Bundle, table: PolicyTable) -> dict[str, Any]:
+    graph, controller = bundle.graph, bundle_controller(bundle)
     report = responsiveness(graph, controller, table.task.turn_limit(graph.behaviour))
     return report | {"speeds": speed_response(graph, controller)} if controller.speeds else report
 

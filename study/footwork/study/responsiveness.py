@@ -8,11 +8,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.controllers.controller import Controller, Situations
+from footwork.controllers.controller import Controller, Situations, headed_of, one_shots_of
 from footwork.motion.angle import wrapped
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import no_moves
-from footwork.motion.task import HEADED, ONE_SHOT
 from footwork.motion.tick import TICK
 from footwork.runtime.world import World
 from footwork.study.breadth_first import UNREACHED
@@ -71,14 +70,14 @@ def responsiveness(
         turn_limit: the largest extra turn on arriving at each node, radians; none where not given.  # (N,)
     """
     limit = np.zeros(graph.node_count) if turn_limit is None else turn_limit
-    headed = [name for name in controller.present if name in HEADED]
+    headed = [name for name in controller.present if name in headed_of(controller)]
     sides = [degrees for turn in TURNS for degrees in ((turn, -turn) if turn < 180 else (turn,))]
     turns = {
         f"{name} {degrees:+d}": _turned(graph, controller, name, np.radians(degrees), limit)
         for name in headed
         for degrees in sides
     }
-    lasting = [name for name in controller.present if name not in ONE_SHOT]
+    lasting = [name for name in controller.present if name not in one_shots_of(controller)]
     changes = {
         f"{before} to {after}": _changed(graph, controller, before, after)
         for before in lasting

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from footwork.controllers.steering import SteeringController
+from footwork.controllers.bundle_controller import bundle_controller
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.graph import ARRAYS
@@ -66,7 +66,7 @@ def score(
     """
     if not traces:
         raise InputError("no traces, expected at least one", "traces")
-    contender = contender or SteeringController(bundle.graph, bundle.table("steering"))
+    contender = contender or bundle_controller(bundle)
     stage = Stage(contender.graph, showing, sigma=_sigma(bundle))
     replays = replays_of(traces, contender, stage, progress, instead)
     shared = {

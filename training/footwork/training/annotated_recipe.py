@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,8 @@ def build_annotated(
 ) -> Built:
     """The state-annotated motion graph, in the stages of ``standard_recipe.whole_graph``, "states" and "ways".
 
+    Its behaviours are the states, wind-ups and recoveries those of what they belong to.
+
     Measured are ``outside`` (frames whose label shows no state, by label), ``forbidden_edges`` (that the machine takes
     out), ``steps`` (nodes that each step leaves, by state), ``as_published`` (those left where no wind-up or recovery
     is handed over), ``wind_ups_and_recoveries`` (how many are) and what ``state_report`` tells.
@@ -42,15 +45,15 @@ def build_annotated(
             state of which nothing is left.
     """
     machine.require_shown(str(label) for clip in clips for label in np.unique(clip.labels))
-    whole = whole_graph(clips, options, task, stages)
+    whole = whole_graph(clips, options, task, stages, machine)
     with stages("states"):
-        state = np.array(machine.states_of(whole.graph.labels), dtype=np.int16)[whole.graph.label]
+        state = whole.graph.behaviour
         links = Links(whole.graph.source, whole.graph.target, whole.graph.natural)
         parts = lasting_parts(machine, state, links)
         if lost := missing_states(machine, parts.state):
             raise _lost(machine, lost[0], options.number, whole, state)
         nodes = np.flatnonzero(parts.state != NO_STATE)
-        graph = restricted(whole.graph, nodes, parts.links)
+        graph = replace(restricted(whole.graph, nodes, parts.links), behaviour=parts.state[nodes])
     with stages("ways"):
         annotation = annotated(graph, machine, parts.state[nodes])
     measured = {
@@ -62,6 +65,14 @@ def build_annotated(
         **state_report(annotation),
     }
     return Built(graph, len(state), len(state), whole.graph.edge_count, measured, annotation)
+
+
+def task_of_states(task: SteeringTask, machine: StateMachine) -> SteeringTask:
+    """The same task with states to ask for; those with a heading may be turned like walking where it does not say."""
+    share = {name: task.warp_share.get(name, 1.0) for name in machine.headed}
+    share |= {name: task.warp_share.get(name, 0.0) for name in machine.names if name not in machine.headed}
+    asked = {"behaviours": machine.names, "facing": machine.headed, "one_shot": machine.one_shot}
+    return replace(task, warp_share=share, **asked)
 
 
 def annotated(graph: MotionGraph, machine: StateMachine, state: NDArray) -> Annotation:

@@ -18,7 +18,7 @@ from footwork.motion.table import PolicyTable
 from footwork.motion.task import SteeringTask
 from footwork.motion.trace import Trace
 from footwork.motion.window import LENGTH
-from footwork.training.annotated_recipe import build_annotated
+from footwork.training.annotated_recipe import build_annotated, task_of_states
 from footwork.training.graph_options import GraphOptions, require_machine
 from footwork.training.memory import peak_rss_mb
 from footwork.training.player_model import learned
@@ -76,7 +76,7 @@ def build_bundle(
     Args:
         motions: the clips and where they came from.
         options: the kind of graph and how it is built.
-        task: what may be asked for; the default steering task where not given.
+        task: what may be asked for; the default steering task where not given. Of an annotated graph it is the states.
         machine: the states of an annotated graph; for that kind alone.
         speed_levels: for how many speeds of each headed behaviour whose speeds the task does not give.
         players: recordings that the policy learns from how commands change; without any it takes them never to.
@@ -91,6 +91,7 @@ def build_bundle(
     stages = Stages(progress)
     require_machine(options, machine is not None)
     _check(motions.clips)
+    task = task if machine is None else task_of_states(task, machine)
     options, choice = chosen(motions.clips, options, stages)
     clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
     built = _built(clips, options, task, stages, machine)

@@ -10,6 +10,7 @@ from footwork.motion.metric_names import NAMES
 GRAPHS = ("standard", "well-connected", "annotated")
 PAIRINGS = ("plain", "ratio", "neighbours")
 ORDERS = ("frames", "reverse", "random")
+USUAL_THRESHOLD = 1.0
 MAX_WEIGHTS = 99
 MAX_BRIDGES = 64
 AUTO_WEIGHTS = 9  # as many at most where they are chosen by need
@@ -24,7 +25,8 @@ class GraphOptions:
     Args:
         graph: The kind of motion graph: standard, well-connected, or annotated with the states of a machine.
         threshold: Transitions must cost less than this (1 is a root mean square distance of 5.6 cm): a number, or auto
-            for the knee of the captured frames' costs.
+            for the knee of the captured frames' costs. Without one it is 1, and in an annotated graph the knee where
+            that is higher.
         metric: What tells how unlike two frames are: uniform, dynamics, torso or joints.
         mirror: Play every clip with left and right exchanged, too: twice the frames, and a turn to one side serves for
             the other.
@@ -42,7 +44,7 @@ class GraphOptions:
     """
 
     graph: str = "standard"
-    threshold: float | Literal["auto"] = 1.0
+    threshold: float | Literal["auto"] | None = None
     metric: str = "uniform"
     mirror: bool = False
     bridges: int = 0
@@ -56,7 +58,9 @@ class GraphOptions:
         _require_name(self.metric, NAMES, "metric")
         _require_name(self.pairing, PAIRINGS, "pairing")
         _require_name(self.order, ORDERS, "order")
-        if self.threshold != "auto" and not (math.isfinite(self.threshold) and self.threshold > 0.0):
+        if self.threshold is None and self.graph != "annotated":
+            object.__setattr__(self, "threshold", USUAL_THRESHOLD)
+        if self.threshold not in ("auto", None) and not (math.isfinite(self.threshold) and self.threshold > 0.0):
             raise InputError(f"{self.threshold} is no threshold, expected a positive number or auto", "--threshold")
         if not (math.isfinite(self.mu) and self.mu >= 1.0):
             raise InputError(f"{self.mu}, expected a number from 1 up", "--mu")
@@ -83,6 +87,8 @@ class GraphOptions:
         Raises:
             ValueError: where it is still to be chosen.
         """
+        if self.threshold is None:
+            raise ValueError("a threshold that is still to be chosen")
         return float(self.threshold)
 
     def record(self) -> dict[str, str | float | int]:

@@ -1,7 +1,7 @@
 """The nodes of a motion graph: every frame of some clips, in its own planar frame, with its behaviour."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -12,6 +12,7 @@ from footwork.errors import InputError
 from footwork.motion.clip import Clip
 from footwork.motion.graph import NO_BEHAVIOUR, captured
 from footwork.motion.skeleton import Skeleton
+from footwork.motion.state_machine import StateMachine
 from footwork.motion.task import BEHAVIOUR_OF_LABEL
 from footwork.training.planar_poses import FPS, planar_poses
 
@@ -64,6 +65,13 @@ def nodes_of(clips: Sequence[Clip], behaviours: tuple[str, ...]) -> Nodes:
     arrays["label"] = np.searchsorted(labels, np.concatenate([clip.labels for clip in clips]))
     arrays["behaviour"] = np.concatenate([behaviours_of(clip.labels, behaviours) for clip in clips])
     return Nodes(skeleton, tuple(clip.name for clip in clips), labels, behaviours, lengths, arrays, places)
+
+
+def nodes_in_states(clips: Sequence[Clip], machine: StateMachine) -> Nodes:
+    """The frames of clips as nodes whose behaviours are the states that labels show; errors as of ``nodes_of``."""
+    nodes = nodes_of(clips, machine.names)
+    state = np.array(machine.states_of(nodes.labels), dtype=np.int16)[nodes.arrays["label"]]
+    return replace(nodes, arrays=nodes.arrays | {"behaviour": state})
 
 
 def behaviours_of(labels: NDArray[np.str_], behaviours: tuple[str, ...]) -> NDArray[np.int16]:

@@ -8,7 +8,7 @@ import numpy as np
 from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.node_speed import node_speeds
-from footwork.motion.task import HEADED, MOST_SPEED_LEVELS, SteeringTask
+from footwork.motion.task import MOST_SPEED_LEVELS, SteeringTask
 
 TAIL = 0.05
 """The part of a behaviour's captured frames that may be slower than all levels, and that may be faster."""
@@ -31,7 +31,7 @@ def _levels(graph: MotionGraph, task: SteeringTask, count: int) -> Mapping[str, 
     speeds, levels = node_speeds(graph), {}
     for index, name in enumerate(task.behaviours):
         shown = speeds[graph.original & (graph.behaviour == index)]
-        if name in HEADED and shown.size:
+        if name in task.facing and shown.size:
             slowest, fastest = np.quantile(shown, [TAIL, 1.0 - TAIL])
             even = np.linspace(slowest, fastest, count)
             levels[name] = tuple(np.unique(even.round(2)).tolist())

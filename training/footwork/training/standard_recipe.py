@@ -12,12 +12,13 @@ from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.metric import PointCloudMetric
 from footwork.motion.metrics import metric_of
+from footwork.motion.state_machine import StateMachine
 from footwork.motion.task import SteeringTask
 from footwork.training.bridges import bridged
 from footwork.training.connectivity import connecting_threshold, largest_component, restricted
 from footwork.training.graph_options import GraphOptions
 from footwork.training.memory import available_bytes
-from footwork.training.nodes import nodes_of
+from footwork.training.nodes import nodes_in_states, nodes_of
 from footwork.training.recipe import Built
 from footwork.training.stages import Stages
 from footwork.training.standard_graph import standard_graph
@@ -69,8 +70,16 @@ def build_standard(clips: Sequence[Clip], options: GraphOptions, task: SteeringT
     return Built(graph, whole.graph.node_count, whole.graph.node_count, whole.graph.edge_count)
 
 
-def whole_graph(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask, stages: Stages) -> WholeGraph:
+def whole_graph(
+    clips: Sequence[Clip],
+    options: GraphOptions,
+    task: SteeringTask,
+    stages: Stages,
+    machine: StateMachine | None = None,
+) -> WholeGraph:
     """All frames and the transitions between them, in the stages "metric", "graph" and, where asked for, "bridges".
+
+    Behaviours are the states of ``machine`` where there is one.
 
     Raises:
         InputError: for more frames than memory has room for.
@@ -80,7 +89,7 @@ def whole_graph(clips: Sequence[Clip], options: GraphOptions, task: SteeringTask
         metric = metric_of(options.metric, clips)
         costs = metric.all_pairs()
     with stages("graph"):
-        nodes = nodes_of(clips, task.behaviours)
+        nodes = nodes_of(clips, task.behaviours) if machine is None else nodes_in_states(clips, machine)
         minima = local_minima(costs, nodes.lengths, options.number)
         uniform = None if options.metric == "uniform" else PointCloudMetric.of_clips(clips)
         whole = standard_graph(nodes, metric, minima, task.smoothness_sigma, uniform)
