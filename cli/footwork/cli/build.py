@@ -32,6 +32,7 @@ def build(
     asked: Annotated[TaskOptions, Parameter(name="*")] = _USUALLY_ASKED,
     machine: Path | None = None,
     players: Path | None = None,
+    strikes: Path | None = None,
     backend: str = "threads",
     scheduler: str | None = None,
     reading: Reading = AS_USUAL,
@@ -49,6 +50,8 @@ def build(
         machine: The states of an annotated graph and which may follow which (TOML).
         players: A trace (CSV), or a folder of them: players whose changes of mind the policy learns to expect; without
             any it expects none.
+        strikes: Where attacks reach their target (CSV with clip, frame at 30 Hz, limb), in place of what is detected in
+            the clips that it names.
         backend: Where the search for a well-connected graph's transitions runs: threads, or dask for a cluster.
         scheduler: Address of the Dask cluster's scheduler, such as tcp://127.0.0.1:8786.
         reading: How a folder of capture is read.
@@ -57,6 +60,7 @@ def build(
     from footwork.motion.bundle import write_bundle
     from footwork.training.backend import backend as running_on
     from footwork.training.build import build_bundle
+    from footwork.training.strike_table import read_strikes
     from footwork.training.warm import start_warming
 
     _check_place(out)
@@ -64,6 +68,7 @@ def build(
     states = read_state_machine(machine) if machine else None
     task = asked.task()
     recorded = read_traces(players) if players else []
+    contacts = read_strikes(strikes) if strikes else []
     started = time.perf_counter()
     warming = start_warming(options)
     with running_on(backend, scheduler=scheduler), progress() as report_progress:
@@ -82,6 +87,7 @@ def build(
             machine=states,
             speed_levels=asked.speed_levels,
             players=recorded,
+            strikes=contacts,
             progress=report_progress,
         )
         digest = write_bundle(out, bundle)

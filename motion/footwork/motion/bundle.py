@@ -27,6 +27,7 @@ from footwork.motion.player_model import PlayerModel, TraceFile
 from footwork.motion.shadowing_table import ShadowingTable
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.state_machine import State
+from footwork.motion.strikes import Strikes
 from footwork.motion.table import SHORTLIST_KINDS, PolicyTable
 from footwork.motion.task import SteeringTask
 
@@ -38,6 +39,7 @@ _BODY_ARRAYS = {
     "masses": np.float64,
     "feet": np.int32,
 }
+_STRIKE_ARRAYS = {"node": np.int32, "limb": np.int16, "speed": np.float32}
 _CODED = {"codes": (np.float32, np.uint16), "low": np.float32, "step": np.float32}
 
 
@@ -53,10 +55,11 @@ class Bundle:
         digest: SHA-256 of the file, empty before it is sealed.
         annotation: states, segments and quickest ways of a state-annotated graph, None for any other.
         shadowing: what to do before an opponent in the state of the annotation that is shadowing, None without one.
+        strikes: where attacks of a state-annotated graph reach their target, None where it has no attacks.
 
     Raises:
         InputError: for a graph with no nodes or with a node that leads nowhere, for a table of other nodes or
-            behaviours than the graph's, for an annotation of another graph, and for shadowing of other
+            behaviours than the graph's, for an annotation or strikes of another graph, and for shadowing of other
             segments than the annotation's.
     """
 
@@ -66,6 +69,7 @@ class Bundle:
     attribution: tuple[str, ...] = ()
     digest: str = ""
     annotation: Annotation | None = None
+    strikes: Strikes | None = None
     shadowing: ShadowingTable | None = None
 
     def __post_init__(self) -> None:
@@ -77,6 +81,8 @@ class Bundle:
             self.annotation.require_fits(self.graph)
         if self.shadowing is not None:
             self._check_shadowing(self.shadowing)
+        if self.strikes is not None:
+            self.strikes.require_fits(self.graph)
 
     def _check_graph(self) -> None:
         graph = self.graph
@@ -183,8 +189,9 @@ def decode_bundle(data: tensor_file.Data, where: str) -> Bundle:
     tables = {name: _table(table, arrays, name, where) for name, table in about.tables.items()}
     graph = _graph(about, arrays, where)
     annotation = None if about.states is None else read_annotation(about.states, arrays, where)
+    strikes = _strikes(arrays, where) if "strikes.node" in arrays else None
     shadowing = None if about.shadowing is None else read_shadowing(about.shadowing, arrays, where)
-    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest, annotation, shadowing)
+    return Bundle(graph, tables, about.provenance, tuple(about.attribution), digest, annotation, strikes, shadowing)
 
 
 def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
@@ -195,6 +202,8 @@ def encode_bundle(bundle: Bundle) -> tuple[bytes, str]:
     for name, table in bundle.tables.items():
         arrays |= _table_arrays(name, table.require_converged())
     arrays |= arrays_of_states(bundle.annotation, bundle.shadowing)
+    if bundle.strikes is not None:
+        arrays |= {f"strikes.{name}": getattr(bundle.strikes, name) for name in _STRIKE_ARRAYS}
     about = {
         "version": VERSION,
         "joints": graph.skeleton.names,
@@ -256,3 +265,8 @@ def _graph(about: _About, arrays: Mapping[str, NDArray], where: str) -> MotionGr
         where=f"{where}: graph",
         **graph,
     )
+
+
+def _strikes(arrays: Mapping[str, NDArray], where: str) -> Strikes:
+    read = (take(arrays, f"strikes.{name}", kind, where) for name, kind in _STRIKE_ARRAYS.items())
+    return Strikes(*read, where=f"{where}: strikes")

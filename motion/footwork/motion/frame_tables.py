@@ -106,7 +106,7 @@ def frame_labels(rows: Sequence[FrameRange], frames: int) -> NDArray[np.str_]:
 
 
 def _read(path: str | Path, columns: tuple[str, ...]) -> tuple[FrameRange, ...]:
-    table = _csv_rows(path)
+    table = csv_rows(path)
     line, header = next(table, (1, []))
     missing = [name for name in columns if name not in header]
     if missing:
@@ -120,7 +120,7 @@ def _read(path: str | Path, columns: tuple[str, ...]) -> tuple[FrameRange, ...]:
     return rows
 
 
-def _csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
+def csv_rows(path: str | Path) -> Iterator[tuple[int, list[str]]]:
     """Line number and cells of each row that is not blank; the file is known to have one."""
     reader = csv.reader(_texts(path), strict=True)
     try:

@@ -27,6 +27,7 @@ from footwork.training.shadowing import solve_shadowing
 from footwork.training.speed_levels import with_speed_levels
 from footwork.training.stages import Progress, Stages
 from footwork.training.standard_recipe import build_standard
+from footwork.training.strike_table import StrikeRow, strikes_of
 from footwork.training.threshold_choice import chosen
 from footwork.training.value_iteration import solve
 from footwork.training.well_connected_recipe import build_well_connected
@@ -61,6 +62,7 @@ def build_bundle(
     machine: StateMachine | None = None,
     speed_levels: int = 0,
     players: Sequence[Trace] = (),
+    strikes: Sequence[StrikeRow] = (),
     progress: Progress | None = None,
 ) -> tuple[Bundle, dict[str, Any]]:
     """A bundle of a motion graph and its steering policy, and a report of how it went.
@@ -80,6 +82,7 @@ def build_bundle(
         machine: the states of an annotated graph; for that kind alone.
         speed_levels: for how many speeds of each headed behaviour whose speeds the task does not give.
         players: recordings that the policy learns from how commands change; without any it takes them never to.
+        strikes: where attacks reach their target, in place of what is detected in the clips that they name.
         progress: told the stage and the share of it that is done.
 
     Raises:
@@ -104,12 +107,14 @@ def build_bundle(
     shadowing = _shadowing(built, stages)
     extra = _mirrored_frames(motions, options)
     provenance = _provenance(motions, options, task, built, extra) | choice
+    contacts = strikes_of(built.graph, built.annotation, strikes)
     whole = Bundle(
         built.graph,
         tables,
         provenance,
         tuple(motions.attribution),
         annotation=built.annotation,
+        strikes=contacts,
         shadowing=shadowing,
     )
     bundle = sealed(whole)
@@ -121,6 +126,7 @@ def build_bundle(
         "scc_nodes": built.graph.node_count,
         "scc_fraction": built.connected_frames / built.frames,
         **built.measured,
+        **({} if contacts is None else {"strikes": contacts.rows(built.graph)}),
         "threshold": options.threshold,
         **choice,
         "seconds": {"read": 0.0} | stages.seconds | {"total": sum(stages.seconds.values())},

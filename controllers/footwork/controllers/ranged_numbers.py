@@ -1,0 +1,30 @@
+"""Dataclasses of numbers that a person may set, each with the range that makes sense."""
+
+from dataclasses import field, fields
+from typing import Any
+
+from footwork.errors import InputError
+from footwork.motion.toml_file import shown
+
+
+def within(usual: float, low: float, high: float) -> Any:
+    """A field with a default and a range."""
+    return field(default=usual, metadata={"low": low, "high": high})
+
+
+def ranged_names(kind: type) -> list[str]:
+    """The fields of a dataclass that have a range."""
+    return [one.name for one in fields(kind) if "low" in one.metadata]
+
+
+def require_ranges(numbers: Any, where: str) -> None:
+    """Raise InputError, naming the first of a dataclass's numbers that is out of its range, and the range."""
+    for one in fields(numbers):
+        if "low" in one.metadata:
+            _require(one.name, getattr(numbers, one.name), one.metadata["low"], one.metadata["high"], where)
+
+
+def _require(name: str, value: Any, low: float, high: float, where: str) -> None:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not (number and low <= value <= high):
+        raise InputError(f"{name} is {shown(value)}, expected a number from {low:g} to {high:g}", where)
