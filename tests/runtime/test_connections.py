@@ -12,6 +12,7 @@ import zmq
 from footwork.protocol import messages as m
 from footwork.protocol.client import Client
 from footwork.protocol.codec import encode
+from footwork.runtime import connections
 from footwork.runtime.router import Router
 from served import serving
 
@@ -143,6 +144,17 @@ def test_one_too_many_takes_the_place_of_one_that_said_nothing(peer_of):
         listen(router, lambda: router.connections.cut == 1)
         assert is_shut(silent[0])
         assert len(router.connections) == 3
+
+
+def test_heartbeats_of_who_only_listens_may_go_on_for_ever(router, peer_of, monkeypatch):
+    peer_of(router)
+    listen(router, lambda: router.connections._by_peer)
+    bytes_in, now = iter(range(0, 10_000_000, 500)), iter(range(0, 10_000_000_000_000, 10_000_000_000))
+    monkeypatch.setattr(connections, "_received", lambda _: next(bytes_in))  # 50 bytes a second
+    monkeypatch.setattr(connections, "now_ns", lambda: next(now))
+    for _ in range(1000):
+        router.connections.look()
+    assert router.connections.cut == 0
 
 
 def test_where_all_have_spoken_one_more_is_cut(peer_of):

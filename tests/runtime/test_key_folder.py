@@ -18,6 +18,13 @@ def test_a_new_folder_has_a_pair_and_lets_nobody_in(folder, tmp_path):
     assert (tmp_path / "keys").stat().st_mode & 0o077 == 0
 
 
+def test_a_folder_that_was_there_stays_as_open_as_it_was(tmp_path):
+    tmp_path.chmod(0o755)
+    KeyFolder.create(tmp_path)
+    assert tmp_path.stat().st_mode & 0o777 == 0o755
+    assert (tmp_path / "server.key_secret").stat().st_mode & 0o077 == 0
+
+
 def test_who_is_allowed_and_who_no_more(folder):
     alice, bob = KeyPair.new().public, KeyPair.new().public
     folder.allow("alice", alice)

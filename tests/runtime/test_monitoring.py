@@ -6,6 +6,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from contextlib import suppress
 
 import pytest
 
@@ -92,3 +93,25 @@ def test_without_the_package_metrics_say_what_is_missing_and_health_goes_on(watc
 def test_an_address_that_is_none_is_refused(watched, bind):
     with pytest.raises(InputError):
         Monitoring(watched[0], bind)
+
+
+def test_who_asks_a_byte_at_a_time_is_hung_up_on(watched, monkeypatch):
+    monkeypatch.setattr("footwork.runtime.monitoring._PATIENCE", 0.3)
+    host, port = watched[1].removeprefix("http://").split(":")
+    with socket.create_connection((host, int(port))) as slow:
+
+        def goes_on() -> bool:
+            with suppress(ConnectionError):
+                slow.sendall(b"G")
+                return True
+            return False
+
+        end = time.monotonic() + 5.0
+        while goes_on():
+            assert time.monotonic() < end
+            time.sleep(0.05)
+
+
+def test_an_address_that_others_reach_is_warned_of(watched, caplog):
+    with Monitoring(watched[0], "0.0.0.0:0"):
+        assert "expected loopback" in caplog.text

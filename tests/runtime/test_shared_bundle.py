@@ -6,7 +6,7 @@ import pytest
 from footwork.errors import InputError
 from footwork.motion.bundle import write_bundle
 from footwork.runtime.shared_bundle import shared_bundle
-from toy_bundle import toy_bundle
+from toy_bundle import lively_bundle, toy_bundle
 
 
 @pytest.fixture
@@ -34,6 +34,13 @@ def test_a_damaged_copy_is_made_anew(path, tmp_path):
     shared_bundle(path, tmp_path / "store")
     (copy,) = (tmp_path / "store").iterdir()
     copy.write_bytes(b"damaged")
+    assert shared_bundle(path, tmp_path / "store").digest == toy_bundle().digest
+
+
+def test_another_bundle_under_its_name_is_not_taken_for_it(path, tmp_path):
+    shared_bundle(path, tmp_path / "store")
+    (copy,) = (tmp_path / "store").iterdir()
+    write_bundle(copy, lively_bundle())
     assert shared_bundle(path, tmp_path / "store").digest == toy_bundle().digest
 
 

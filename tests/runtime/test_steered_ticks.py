@@ -1,6 +1,7 @@
 """One compiled call does what one Python call after the other does."""
 
 import numpy as np
+import pytest
 
 from footwork.controllers.command import Command
 from footwork.controllers.steering import SteeringController
@@ -8,6 +9,7 @@ from footwork.runtime.chosen_ticks import ChosenTicks
 from footwork.runtime.schedule import NOTHING, schedule_of
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.steered_ticks import SteeredTicks
+from footwork.runtime.world_errors import WrongMove
 from toy_bundle import lively_bundle
 
 BUNDLE = lively_bundle()
@@ -67,3 +69,13 @@ def test_some_characters_go_on_while_the_others_wait():
         apart._ticks.make(np.array([slot]), NOTHING, one)
         shown.append(one)
     assert np.concatenate(shown, axis=2).tobytes() == whole.tobytes()
+
+
+def test_a_move_that_cannot_be_made_is_told():
+    steered = crowd(SteeringController(BUNDLE.graph, BUNDLE.table("steering")))
+    assert isinstance(steered._ticks, SteeredTicks)
+    steered._ticks._policy = steered._ticks._policy._replace(
+        displacement=np.full_like(BUNDLE.graph.displacement, np.nan)
+    )
+    with pytest.raises(WrongMove, match=r"character 0 at node .* not finite"):
+        steered.play(1, 1)

@@ -25,6 +25,8 @@ SILENT_SECONDS = 5.0
 """Who is connected for longer without a whole message is cut."""
 PILED_BYTES = 1 << 15
 """Who sends more than this without a message becoming whole is cut; at least twice what one frame may have."""
+PILED_A_SECOND = 64
+"""Bytes a second that may pile up besides: heartbeats are no messages, and who only listens sends nothing else."""
 _LOOKED_AT = 128
 """Connections looked at in one go."""
 _EVENTS_AT_ONCE = 512
@@ -43,6 +45,7 @@ class Connection:
         peer: the name that the ROUTER gave it, empty until its first message.
         heard: whether a message came since it was last looked at.
         received: bytes it had sent when a message last came, as far as known.
+        since: monotonic nanoseconds of that.
     """
 
     descriptor: int
@@ -51,6 +54,7 @@ class Connection:
     peer: bytes = b""
     heard: bool = False
     received: int | None = None
+    since: int = 0
 
 
 class Connections:
@@ -162,9 +166,10 @@ class Connections:
             return f"no message in {self._silent:g} s"
         received = _received(connection.descriptor)
         if connection.received is None:
-            connection.received = received if connection.peer else 0
+            connection.received, connection.since = received if connection.peer else 0, now
         piled = received - connection.received
-        return f"{piled} bytes and no whole message" if piled > PILED_BYTES else ""
+        most = PILED_BYTES + PILED_A_SECOND * (now - connection.since) // SECOND
+        return f"{piled} bytes and no whole message" if piled > most else ""
 
     def _cut(self, connection: Connection, problem: str) -> None:
         self._forget(connection.descriptor)

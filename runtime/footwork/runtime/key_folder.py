@@ -39,8 +39,9 @@ class KeyFolder:
         """
         folder = Path(folder)
         try:
-            (folder / _ALLOWED).mkdir(parents=True, exist_ok=True)
-            folder.chmod(0o700)
+            if not folder.is_dir():  # one that is there already stays as open as its owner made it
+                folder.mkdir(parents=True, mode=0o700)
+            (folder / _ALLOWED).mkdir(exist_ok=True)
         except OSError as error:
             raise InputError(f"cannot be made: {error.strerror}", folder) from None
         KeyPair.new().write(folder, _SERVER)

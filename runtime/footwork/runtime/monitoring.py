@@ -4,8 +4,11 @@ It runs on threads of its own and only reads. Whoever reaches the address may re
 in a private network.
 """
 
+import ipaddress
 import logging
+import socket
 import threading
+from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any, ClassVar, Self
 
@@ -56,6 +59,8 @@ class Monitoring:
     def __enter__(self) -> Self:
         threading.Thread(target=self._http.serve_forever, name="monitoring", daemon=True).start()
         log.info("health and metrics at %s/health and %s/metrics", self.address, self.address)
+        if not _is_loopback(self._http.server_address[0]):
+            log.warning("whoever reaches %s may read them, expected loopback or a private network", self.address)
         return self
 
     def __exit__(self, *exception: object) -> None:
@@ -80,10 +85,18 @@ class _Handler(BaseHTTPRequestHandler):
     def handle(self) -> None:
         """Answer one request, unless too many are being answered."""
         if self.turns.acquire(blocking=False):
+            # ``timeout`` is for each piece: who sends one byte at a time would hold a turn for ever
+            patience = threading.Timer(_PATIENCE, self._hang_up)
+            patience.start()
             try:
                 super().handle()
             finally:
+                patience.cancel()
                 self.turns.release()
+
+    def _hang_up(self) -> None:
+        with suppress(OSError):
+            self.connection.shutdown(socket.SHUT_RDWR)
 
     def do_GET(self) -> None:
         """Answer ``/health`` and ``/metrics``."""
@@ -110,3 +123,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: object) -> None:  # noqa: A002
         """Nothing: whoever asks every second fills no log."""
+
+
+def _is_loopback(host: object) -> bool:
+    return ipaddress.ip_address(str(host)).is_loopback

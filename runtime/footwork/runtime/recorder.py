@@ -83,6 +83,7 @@ class Recorder:
         try:
             file = FileIO(self.path, "xb")
             _write(file, MAGIC + head)
+            _keep_name(self.path.parent)
         except FileExistsError:
             raise InputError("exists; a recording never takes the place of another", self.path) from None
         except OSError as error:
@@ -156,9 +157,19 @@ class Recorder:
         return framed_soundly(State(record.tick, state_digest(slots, rows)) if state else record)
 
     def _fail(self, problem: str) -> None:
-        self.errors += 1
+        self.errors = 1
         self._failed.set()
         log.error("recording %s ends after tick %d: %s", self.path, self.recorded, problem)
+
+
+def _keep_name(folder: Path) -> None:
+    """Bring the names in a folder to the disk, where folders can be opened (not on Windows)."""
+    if hasattr(os, "O_DIRECTORY"):
+        handle = os.open(folder, os.O_DIRECTORY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
 def _write(file: FileIO, data: bytes) -> None:

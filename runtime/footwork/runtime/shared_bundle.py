@@ -19,11 +19,15 @@ def shared_bundle(path: Path, store: Path) -> Bundle:
         InputError: for a file that is no sound bundle, and a folder that cannot be written to.
     """
     data = tensor_file.read_bytes(path)
-    copy = store / f"{decode_bundle(data, str(path)).digest}.footwork"
+    digest = decode_bundle(data, str(path)).digest
+    copy = store / f"{digest}.footwork"
     try:
-        return read_bundle(copy, mapped=True)
+        mapped = read_bundle(copy, mapped=True)
+        if mapped.digest == digest:
+            return mapped
     except InputError:  # not there yet, or damaged
-        _publish(copy, data)
+        pass
+    _publish(copy, data)
     return read_bundle(copy, mapped=True)
 
 

@@ -30,8 +30,10 @@ def make_ticks(
     motion: Motion,
     smoothing: Smoothing,
     poses: NDArray,
-) -> None:
+) -> int:
     """Take characters through T ticks and write their poses at F moments of each.
+
+    Returns -1, or the first character whose move cannot be made: ticks end before that one.
 
     Args:
         slots: rows of the characters.  # (n,)
@@ -76,10 +78,13 @@ def make_ticks(
             natural[:count],
         )
         _put_in_slots(slots, edge, target, displacement, adjustment, natural)
-        advance(slots, edge, target, displacement, adjustment, natural, characters, motion, smoothing)
+        wrong = advance(slots, edge, target, displacement, adjustment, natural, characters, motion, smoothing)
+        if wrong >= 0:
+            return wrong
         for frame in range(frames):
             show_characters(slots, (frame + 1) / frames, characters, motion, smoothing, root, rotations)
             _copy_shown(slots, root, rotations, poses[tick, frame])
+    return -1
 
 
 @numba.njit(cache=True, nogil=True)
@@ -113,23 +118,29 @@ class SteeredTicks:
     """
 
     def __init__(self, controller: SteeringController, world: World, orders: Orders) -> None:
-        moves = no_moves(world.capacity)
         self._behaviour, self._policy = world.graph.behaviour, controller.policy
         (self._held,) = controller.memory(world.capacity)
         self._in_force = orders.in_force
-        self._moves = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
-        self._world = world.characters, world.motion, world.smoothing
+        self._moves = moves = no_moves(world.capacity)
+        self._arrays = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
+        self._world, self._remembered = world, (world.characters, world.motion, world.smoothing)
 
     def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
-        """Take the characters of some slots, in rising order, through the ticks of ``poses``; see ``make_ticks``."""
-        make_ticks(
+        """Take the characters of some slots, in rising order, through the ticks of ``poses``; see ``make_ticks``.
+
+        Raises:
+            WrongMove: where the table's move cannot be made in this world: the ticks before it have been made.
+        """
+        wrong = make_ticks(
             slots,
             schedule,
             self._behaviour,
             self._policy,
             self._held,
             self._in_force,
-            self._moves,
-            *self._world,
+            self._arrays,
+            *self._remembered,
             poses,
         )
+        if wrong >= 0:
+            self._world.raise_wrong_move(wrong, self._moves)

@@ -1,6 +1,7 @@
 """The world: all characters as arrays, moved along the edges of one motion graph a tick at a time."""
 
 import math
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -163,7 +164,7 @@ class World:
             self.smoothing,
         )
         if wrong >= 0:
-            self._raise_wrong_move(wrong, moves)
+            self.raise_wrong_move(wrong, moves)
 
     def show(self, fraction: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """The poses at a fraction of the tick in (0, 1]: 1 is the node itself, near 0 where the last tick ended.
@@ -190,7 +191,12 @@ class World:
         if not (0 <= slot < self.capacity and self.active[slot]):
             raise NoSuchCharacter(f"no character {slot}; there are {int(self.active.sum())}")
 
-    def _raise_wrong_move(self, slot: int, moves: Moves) -> None:
+    def raise_wrong_move(self, slot: int, moves: Moves) -> NoReturn:
+        """Say what is wrong with a move that could not be made.
+
+        Raises:
+            WrongMove: always.
+        """
         node, edge, target = (int(array[slot]) for array in (self.node, moves.edge, moves.target))
         first, end = (int(self.graph.edge_start[node + step]) for step in (0, 1))
         if edge != LEAP and not first <= edge < end:
