@@ -8,6 +8,7 @@ from cyclopts import App
 from cyclopts.exceptions import CycloptsError
 
 from footwork.cli.build import build
+from footwork.cli.data import data
 from footwork.cli.demo import demo
 from footwork.cli.export import export
 from footwork.cli.inspect import inspect
@@ -37,6 +38,7 @@ app.command(play)
 app.command(keys)
 app.command(replay)
 app.command(export)
+app.command(data)
 app.command(score)
 app.command(reproduce)
 
