@@ -18,14 +18,14 @@ $(VENV)/made:
 	@touch $@
 
 $(VENV)/installed: $(VENV)/made pyproject.toml
-	$(INSTALL) .
+	$(INSTALL) '.[view]'
 	@touch $@
 
 $(VENV)/developing: $(VENV)/made pyproject.toml
 	$(INSTALL) '.[dev]'
 	@touch $@ $(VENV)/installed
 
-demo: $(VENV)/installed  ## build, serve and drive a character made from embedded motions
+demo: $(VENV)/installed  ## build and serve a character made from embedded motions, and let one play it
 	$(BIN)/footwork demo
 
 test: $(VENV)/developing  ## run the tests

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import venv
@@ -13,6 +14,7 @@ import pytest
 
 from footwork.motion.bvh import write_bvh
 from footwork.training.embedded import embedded_clips
+from footwork.viewer.npm_files import FILES
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -37,6 +39,13 @@ def test_the_wheel_holds_the_library_and_nothing_else(wheel):
     assert not outside
     assert "footwork/__init__.py" not in names
     assert "footwork/motion/skeletons/cmu.toml" in names
+    assert "footwork/viewer/web/index.html" in names
+
+
+@pytest.mark.skipif(shutil.which("npm") is None, reason="npm is not installed")
+def test_the_wheel_brings_what_the_page_takes_from_npm(wheel):
+    names = set(zipfile.ZipFile(wheel).namelist())
+    assert {f"footwork/viewer/web/vendor/{name}" for name in FILES} <= names
 
 
 @pytest.fixture

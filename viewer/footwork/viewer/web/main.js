@@ -82,20 +82,25 @@ function turnByPad(seconds) {
 
 let before = performance.now();
 let toldAt = 0;
-function draw(now) {
+function turn(now) {
+  requestAnimationFrame(turn);
   const seconds = Math.min(0.25, Math.max(0, now - before) / 1000);
-  frames.add(now - before);
-  quality.note(now - before);
-  before = now;
   turnByPad(seconds);
   if (transport.player) replay(seconds);
   else ask();
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
   for (const player of players) player.show(seconds);
-  if (now - toldAt > TOLD_MS) tell(now);
   camera.follow(figure.place, figure.facing, seconds);
+  if (quality.allows(now)) draw(now);
+  before = now;
+}
+
+let drawnAt = performance.now();
+function draw(now) {
+  frames.add(now - drawnAt);
+  drawnAt = now;
+  if (now - toldAt > TOLD_MS) tell(now);
   stage.draw(camera.target);
-  requestAnimationFrame(draw);
 }
 
 function tell(now) {
@@ -105,6 +110,6 @@ function tell(now) {
   transport.show();
 }
 
-requestAnimationFrame(draw);
+requestAnimationFrame(turn);
 // For whoever looks from outside, such as a test.
 globalThis.footwork = { players, session, figure, camera, frames, transport, stage };

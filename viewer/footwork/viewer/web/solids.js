@@ -8,10 +8,11 @@ import {
   Vector2,
   Vector3,
 } from "./vendor/three.module.js";
+import { DRAWS_IN_SOFTWARE } from "./drawing_power.js";
 
 const UP = new Vector3(0, 1, 0);
-const ROUND = 16; // sides
-const ARC = 4; // steps of a rounded end
+const ROUND = DRAWS_IN_SOFTWARE ? 9 : 18; // sides
+const ARC = DRAWS_IN_SOFTWARE ? 2 : 5; // steps of a rounded end
 
 // A capsule from one point to another whose ends have radii of their own.
 export function roundCone(from, to, fromRadius, toRadius) {
@@ -31,13 +32,13 @@ function onArc(angle, radius, height) {
 }
 
 export function ellipsoid(centre, x, y, z) {
-  return new SphereGeometry(1, ROUND, 10).scale(x, y, z).translate(centre.x, centre.y, centre.z);
+  return new SphereGeometry(1, ROUND, 2 * ARC + 2).scale(x, y, z).translate(centre.x, centre.y, centre.z);
 }
 
 // A side view, points [z, y] in order, as wide as told, its edges rounded.
 export function rounded(outline, width, bevel) {
   const shape = new Shape(outline.map(([z, y]) => new Vector2(-z, y)));
-  const options = { depth: width - 2 * bevel, bevelSize: bevel, bevelThickness: bevel, bevelSegments: 3, steps: 1 };
+  const options = { depth: width - 2 * bevel, bevelSize: bevel, bevelThickness: bevel, bevelSegments: 2, steps: 1 };
   return new ExtrudeGeometry(shape, { ...options, bevelOffset: -bevel, curveSegments: 4 })
     .translate(0, 0, bevel - width / 2)
     .rotateY(Math.PI / 2);

@@ -11,7 +11,7 @@ import {
   Scene,
   WebGLRenderer,
 } from "./vendor/three.module.js";
-import { drawsInSoftware } from "./drawing_power.js";
+import { DRAWS_IN_SOFTWARE } from "./drawing_power.js";
 import { Ground } from "./ground.js";
 
 const AIR = 0xb9c6cf;
@@ -21,7 +21,7 @@ const LIT = 4.5; // how far from the character there are shadows
 export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
-    this.software = drawsInSoftware();
+    this.software = DRAWS_IN_SOFTWARE;
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.05;
