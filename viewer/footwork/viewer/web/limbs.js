@@ -38,7 +38,7 @@ const SHAPES = {
   hips: (skeleton) => {
     const sockets = ["left_thigh", "right_thigh"].map((name) => offset(skeleton, name));
     const belt = roundCone(sockets[0], sockets[1], 0.093, 0.093).scale(1, 1, 0.95);
-    return [belt, roundCone(ORIGIN, offset(skeleton, "spine"), 0.125, 0.118).scale(1.12, 1, 0.86)];
+    return [belt, roundCone(ORIGIN, offset(skeleton, "spine"), 0.122, 0.108).scale(1.12, 1, 0.86)];
   },
   spine: (skeleton) => [roundCone(ORIGIN, offset(skeleton, "chest"), 0.118, 0.13).scale(1.12, 1, 0.84)],
   chest: (skeleton) => {
