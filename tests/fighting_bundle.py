@@ -1,5 +1,6 @@
 """The bundle of the embedded fighting motions, built once in each process that tests with it."""
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -15,9 +16,10 @@ FIGHTING = Path(__file__).resolve().parents[1] / "examples" / "fighting.toml"
 
 @cache
 def fighting_bundle() -> Bundle:
-    """Annotated, with strikes."""
-    options = GraphOptions(graph="annotated", threshold=1.0)
-    return build_bundle(embedded_dataset("fighting"), options, machine=read_state_machine(FIGHTING))[0]
+    """Annotated, with strikes, without a table for shadowing."""
+    options, machine = GraphOptions(graph="annotated", threshold=1.0), read_state_machine(FIGHTING)
+    states = tuple(replace(state, shadowing=False) for state in machine.states)
+    return build_bundle(embedded_dataset("fighting"), options, machine=replace(machine, states=states))[0]
 
 
 @cache

@@ -110,7 +110,9 @@ def test_bundles_that_nobody_can_fight_with_are_refused():
     with pytest.raises(InputError, match="no state 'evade', expected one"):
         fight_map(replace(bundle, annotation=replace(notes, machine=other)))
     with pytest.raises(InputError, match="no attack that strikes"):
-        fight_map(replace(bundle, strikes=Strikes(*(np.zeros(0) for _ in range(3)))))
+        fight_map(
+            replace(bundle, strikes=Strikes(np.zeros(0, np.int32), np.zeros(0, np.int16), np.zeros(0, np.float32)))
+        )
 
 
 def _renamed(state: State) -> State:

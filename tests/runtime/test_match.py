@@ -13,17 +13,20 @@ from footwork.controllers.fighters import draw, new_fighters
 from footwork.controllers.fighting_style import STYLES, FightingStyle
 from footwork.controllers.prediction import begin_paths, predict
 from footwork.controllers.shadow import shadow_edge
+from footwork.controllers.shadowing import TableShadowing
 from footwork.controllers.strike_distance import strike_distance
 from footwork.errors import InputError
 from footwork.motion import quaternion
 from footwork.motion.fighting_points import LIMBS, RADII, fighting_points
 from footwork.motion.kinematics import forward
+from footwork.motion.shadowing_table import ShadowingTable
+from footwork.motion.shadowing_task import ShadowingTask
 from footwork.runtime.bodies import push_apart
 from footwork.runtime.match import LONGEST_PLAY, Match
 from footwork.runtime.match_rules import MatchRules, rules_in
 from footwork.runtime.tally import EVENTS
 
-EXACT = FightingStyle(variety=0.0)
+EXACT = FightingStyle(variety=0.0, roam=0.0)
 PAIR = [STYLES["aggressive"], STYLES["evasive"]]
 
 
@@ -201,6 +204,22 @@ def test_shadowing_takes_the_hop_with_the_least_error_at_its_end():
         assert errors[chosen] == pytest.approx(min(errors.values()), abs=1e-9)
 
 
+def test_a_table_is_shadowed_by_as_its_own_controller_does():
+    bundle = fighting_bundle()
+    notes = bundle.annotation
+    assert notes is not None
+    task = ShadowingTask(distance_bins=4, bearing_bins=8)
+    values = np.random.default_rng(4).uniform(0.0, 9.0, (len(notes.of_state(0)), 4, 8)).astype(np.float32)
+    table = TableShadowing(bundle.graph, notes, ShadowingTable(task, 0, values, 0.0, 1, True))
+    bout = match(styles=[EXACT, EXACT], shadowing=table)
+    minds, paths = bout.minds, bout.room.paths
+    for who in decisions(bout, 30):
+        segment, seen = int(notes.segment[bout.world.node[who]]), bout.relative(who)
+        if minds.shadowing.hops.row[segment] >= 0:
+            chosen = shadow_edge(minds.world, minds.shadowing, bout.fighters, minds.styles, who, paths)
+            assert chosen == table.next_edge(segment, seen.x, seen.z)
+
+
 def error_after(bout, who, edge, ticks, paths):
     """|d - 1.2| / 0.3 + |bearing| / 30 degrees once an edge and the segment after it are walked."""
     begin_paths(bout.fighters, bout.world.node, bout.world.place, paths)
@@ -269,9 +288,11 @@ def test_chance_is_even_and_each_fighters_own():
 
 def test_what_cannot_be_is_refused():
     bout = match()
-    for choice in ({"activity": "rest"}, {"segment": -1}, {"segment": 10**6}):
-        with pytest.raises(InputError):
-            bout.choose(0, **choice)
+    with pytest.raises(InputError, match="activity 'rest', expected shadow, attack, evade"):
+        bout.choose(0, activity="rest")
+    for segment in (-1, 10**6):
+        with pytest.raises(InputError, match="segment"):
+            bout.choose(0, segment=segment)
     with pytest.raises(InputError, match="fighter 2"):
         bout.choose(2)
     for ticks in (-1, LONGEST_PLAY + 1):

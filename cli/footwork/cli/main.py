@@ -11,6 +11,7 @@ from footwork.cli.build import build
 from footwork.cli.data import data
 from footwork.cli.demo import demo
 from footwork.cli.export import export
+from footwork.cli.fight import fight
 from footwork.cli.inspect import inspect
 from footwork.cli.keys import keys
 from footwork.cli.play import play
@@ -35,6 +36,7 @@ app.command(build)
 app.command(inspect)
 app.command(serve)
 app.command(play)
+app.command(fight)
 app.command(keys)
 app.command(replay)
 app.command(export)

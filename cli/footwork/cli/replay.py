@@ -27,7 +27,7 @@ def replay(
     speed: Literal["max"] | float = "max",
     json: Annotated[bool, Off] = False,
 ) -> int:
-    """Make a recording of `footwork serve --record` once more, without clients.
+    """Make a recording of `footwork serve --record` or `footwork fight --record` once more, without clients.
 
     The same version on the same kind of processor makes the same bytes. What it printed as the digest of all poses
     shown tells two replays apart; --verify compares the state of all characters with the one recorded, every two
@@ -43,15 +43,16 @@ def replay(
         json: Print what came of it as one JSON object.
     """
     from footwork.motion.bundle import read_bundle
+    from footwork.runtime.fight_recording import is_fight, replay_fight
     from footwork.runtime.recording import read_recording
     from footwork.runtime.replay import Replay, processor
 
     if speed != "max" and not speed > 0.0:
         raise InputError(f"{speed:g}, expected max or a number above 0", "--speed")
     read = read_recording(recording)
-    again = Replay(read, read_bundle(bundle))
+    made_with, hold = read_bundle(bundle), None if speed == "max" else _at(speed, read.first)
     start = time.perf_counter()
-    outcome = again.run(None if speed == "max" else _at(speed, read.first))
+    outcome = replay_fight(read, made_with, hold) if is_fight(read) else Replay(read, made_with).run(hold)
     seconds = time.perf_counter() - start
     report = {
         "ticks": outcome.ticks,

@@ -11,7 +11,7 @@ from footwork.controllers.prediction import FURTHEST, Paths, predict
 from footwork.controllers.strike_distance import surface_distance
 from footwork.motion.planar import put, triple
 
-CLOSEST = 0.45
+CLOSEST = 0.65
 """Metres between the fighters' hips at contact: a strike that would bring them closer is not thrown."""
 
 

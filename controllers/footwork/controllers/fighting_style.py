@@ -29,6 +29,7 @@ class FightingStyle:
         distance: what shadowing keeps to the opponent.
         distance_scale: an error in it that weighs as much as ``facing_scale``.
         facing_scale: an error in facing the opponent that weighs as much, degrees.
+        roam: the chance at each decision to shadow along any way, lest fighters settle down opposite each other.
         turn: how far shadowing and aiming turn the body beyond its capture, degrees a tick at most.
         reach: how far from the surface of a target a strike may be predicted to end and still be thrown.
         lunge: how far aiming carries a strike beyond its capture, metres a second at most.
@@ -49,6 +50,7 @@ class FightingStyle:
     distance: float = within(1.2, 0.6, 5.0)
     distance_scale: float = within(0.3, 0.01, 5.0)
     facing_scale: float = within(30.0, 1.0, 180.0)
+    roam: float = within(0.1, 0.0, 1.0)
     turn: float = within(3.0, 0.0, 6.0)
     reach: float = within(0.15, 0.0, 0.5)
     lunge: float = within(0.3, 0.0, 1.0)

@@ -26,6 +26,8 @@ class Shadowing(NamedTuple):
         hops: of the state in which they do.
         rules: of the table.
         values: of the table, NO_TABLE for the rule.  # (R, D, P)
+
+    To a table the opponent is where it would be if the distance of the fighter's style were the table's own.
     """
 
     hops: Hops
@@ -52,11 +54,15 @@ def shadow_edge(
     row = int(hops.row[segment])
     if row < 0:
         return world.segments[segment].onward
+    if draw(fighters[who]) < styles[who].roam:
+        first, end = int(hops.start[row]), int(hops.start[row + 1])
+        return int(hops.edge[first + int((end - first) * draw(fighters[who]))])
     if values.shape[0] == 0:
         return _best_by_rule(world, hops, fighters, styles, who, paths, row)
     other = triple(paths.place[1 - who], 0)
     x, z = seen(triple(paths.place[who], 0), other[0], other[1])
-    return hops.edge[best_hop(rules, hops, values, row, x, z)[1]]
+    x, z = _as_far(x, z, rules.distance - styles[who].distance)
+    return int(hops.edge[best_hop(rules, hops, values, row, x, z)[1]])
 
 
 @numba.njit(cache=True, nogil=True)
@@ -75,6 +81,14 @@ def _best_by_rule(world, hops, fighters, styles, who, paths, row):
         if error < least:
             least, best = error, hops.edge[hop]
     return best
+
+
+@numba.njit(cache=True, nogil=True)
+def _as_far(x, z, further):
+    """A point moved away along its bearing: so a table for one distance keeps another."""
+    apart = math.hypot(x, z)
+    share = max(apart + further, 0.0) / apart if apart > 0.0 else 0.0
+    return x * share, z * share
 
 
 @numba.njit(cache=True, nogil=True)

@@ -60,6 +60,13 @@ def fight_ground(bundle: Bundle) -> FightGround:
     return FightGround(bundle, world, hops_within(bundle.graph, bundle.annotation, 0))
 
 
+def table_of(bundle: Bundle) -> TableShadowing | None:
+    """What a bundle has to shadow by, None for nothing but the rule."""
+    if bundle.shadowing is None or bundle.annotation is None:
+        return None
+    return TableShadowing(bundle.graph, bundle.annotation, bundle.shadowing)
+
+
 @dataclass(frozen=True)
 class Relative:
     """Where a fighter has its opponent.
@@ -104,10 +111,11 @@ class Match:
         fighters: what is remembered of them besides.
         tally: what was counted.
         tick: ticks made.
+        track: the ticks last made, and what happened in them.
         minds, ring, room: what the kernels take.
 
     Raises:
-        InputError: for other than two styles.
+        InputError: for other than two styles, and a seed below 0.
     """
 
     def __init__(
@@ -123,8 +131,10 @@ class Match:
     ) -> None:
         if len(styles) != 2:
             raise InputError(f"{len(styles)} styles, expected one for each of two fighters", "match")
+        if seed < 0:
+            raise InputError(f"seed {seed}, expected 0 or more", "match")
         graph = ground.bundle.graph
-        self.ground, self.seed = ground, seed
+        self.ground, self.seed, self.styles, self.rules, self.shadowing = ground, seed, tuple(styles), rules, shadowing
         self.world = World(graph, 2, inertialise=inertialise, foot_lock=foot_lock)
         self.fighters = new_fighters(seed)
         self.tally: Tally = new_tally()
@@ -236,7 +246,8 @@ class Match:
 
     def digest(self) -> str:
         """A digest of all that is remembered of both fighters."""
-        rows = hashlib.blake2b(digest_size=16)
-        for array in (*self.world.characters, self.fighters, *self.tally):
-            rows.update(np.ascontiguousarray(array).tobytes())
-        return rows.hexdigest()
+        return hashlib.blake2b(self.rows(), digest_size=16).hexdigest()
+
+    def rows(self) -> bytes:
+        """All that is remembered of both fighters, as bytes."""
+        return b"".join(array.tobytes() for array in (*self.world.characters, self.fighters, *self.tally))

@@ -32,7 +32,7 @@ class MatchRules:
     """
 
     round_seconds: float = within(60.0, 1.0, 3600.0)
-    apart: float = within(0.5, 0.0, 1.0)
+    apart: float = within(0.7, 0.0, 1.0)
     push: float = within(1.2, 0.0, 3.0)
     limb: float = within(0.07, 0.0, 0.2)
     damage: float = within(0.1, 0.0, 1.0)

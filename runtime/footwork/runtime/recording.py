@@ -134,6 +134,20 @@ class Resimulated(Record, frozen=True, array_like=True, gc=False, tag="resimulat
     given: Annotated[tuple[Given, ...], Meta(max_length=65536)]
 
 
+class Fought(Record, frozen=True, array_like=True, gc=False, tag="fight"):
+    """A match of two fighters began; its seed is the header's.
+
+    Args:
+        styles: the numbers of both, as ``fighting_style.STYLE`` names them.
+        rules: the numbers of the match, as ``match_rules.MatchRules`` names them.
+        table: whether they shadow by the bundle's table.
+    """
+
+    styles: tuple[dict[str, Number], dict[str, Number]]
+    rules: dict[str, Number]
+    table: bool
+
+
 class State(Record, frozen=True, array_like=True, gc=False, tag="state"):
     """The digest of all that was remembered of all characters after the tick."""
 
@@ -144,7 +158,7 @@ class End(Record, frozen=True, array_like=True, gc=False, tag="end"):
     """The recording was ended on purpose after the tick."""
 
 
-Effect = Spawned | Commanded | Corrected | Teleported | Removed | Restored | Resimulated
+Effect = Spawned | Commanded | Corrected | Teleported | Removed | Restored | Resimulated | Fought
 AnyRecord = Effect | State | End
 _encoder = msgspec.msgpack.Encoder(enc_hook=methodcaller("item"))  # numbers may be NumPy's
 _header_decoder = msgspec.msgpack.Decoder(Header)

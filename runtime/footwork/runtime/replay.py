@@ -61,6 +61,17 @@ def start_recording(simulation: Simulation, path: object, *, rate: int, seed: in
     return recorder
 
 
+def require_same(recording: r.Recording, bundle: Bundle) -> None:
+    """Raise InputError for a recording that another bundle or another version of footwork made."""
+    header = recording.header
+    if header.bundle != bundle.digest:
+        problem = f"was made with bundle {header.bundle[:12]}, this is {bundle.digest[:12]}"
+        raise InputError(problem, recording.where)
+    if header.footwork != version("footwork"):
+        problem = f"was made by footwork {header.footwork}, this is {version('footwork')}"
+        raise InputError(problem, recording.where)
+
+
 @dataclass(frozen=True)
 class Outcome:
     """How a replay went.
@@ -97,12 +108,7 @@ class Replay:
 
     def __init__(self, recording: r.Recording, bundle: Bundle) -> None:
         header = recording.header
-        if header.bundle != bundle.digest:
-            problem = f"was made with bundle {header.bundle[:12]}, this is {bundle.digest[:12]}"
-            raise InputError(problem, recording.where)
-        if header.footwork != version("footwork"):
-            problem = f"was made by footwork {header.footwork}, this is {version('footwork')}"
-            raise InputError(problem, recording.where)
+        require_same(recording, bundle)
         self.recording = recording
         self.frames = header.rate // TICK_RATE
         self.simulation = Simulation(
@@ -204,6 +210,11 @@ def _(effect: r.Removed, simulation: Simulation) -> None:
 @take_effect.register
 def _(effect: r.Restored, simulation: Simulation) -> None:
     simulation.restore(effect.blob, effect.slots)
+
+
+@take_effect.register
+def _(effect: r.Fought, simulation: Simulation) -> None:
+    raise WorldError("a match began, where characters were steered")
 
 
 @take_effect.register
