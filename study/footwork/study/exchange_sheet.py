@@ -19,9 +19,9 @@ from footwork.study.drawing import Canvas
 from footwork.study.figure import LEFT, RIGHT, TRUNK, Part, body_parts
 
 MOST_MOMENTS = 200
-_WIDTH, _HEIGHT = 3.0, 2.35  # metres of a cell
+_WIDTH, _HEIGHT = 3.8, 2.35  # metres of a cell
 _GROUND = 0.3  # metres of a cell under the middle of the ground
-_PIXELS_PER_METRE = 80.0
+_PIXELS_PER_METRE = 68.0
 _PITCH = 0.14
 _OTHERS_PAINT = {LEFT: RIGHT, RIGHT: LEFT}
 
