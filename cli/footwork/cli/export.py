@@ -39,7 +39,7 @@ def export(
     Example: footwork export walker.footwork --path idle run --out start.glb
 
     Args:
-        source: A bundle, or a recording of `footwork serve --record`.
+        source: A bundle, or a recording of `footwork serve --record` or `footwork fight --record`.
         out: The file to write, replaced only once the new one is whole; a folder for BVH files of several clips.
         format: glb, with a body to look at and an animation for each clip, or bvh; the ending of --out says where not
             given.

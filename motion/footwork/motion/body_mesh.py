@@ -14,6 +14,7 @@ _AROUND, _RINGS = 14, 4  # corners of a circle, circles of half a ball
 _DENSITY = 1000.0  # kg/m^3, about that of a person
 _SLENDER = 0.35  # radius by length of a bone whose mass is unknown
 _THINNEST, _THICKEST, _ANKLE = 0.02, 0.25, 0.045  # metres
+_WITHIN = 0.98  # balls about one joint lie within one another: surfaces that coincide flicker
 _RIGHT_SHADE = 0.55
 _UP = np.array([0.0, 1.0, 0.0])
 
@@ -57,8 +58,9 @@ def _bones(skeleton: Skeleton) -> Iterator[tuple[int, NDArray[np.float64], float
     """(joint, tip in its frame, radius at the joint, radius at the tip), at least one; bones taper to the next one."""
     radii = _radii(skeleton)
     for joint in range(skeleton.joint_count):
-        for child in skeleton.children(joint):
-            yield joint, skeleton.offsets[child], radii[joint], min(radii[joint], radii[child])
+        for number, child in enumerate(skeleton.children(joint)):
+            near, far = radii[joint] * _WITHIN**number, min(radii[joint], radii[child]) * _WITHIN
+            yield joint, skeleton.offsets[child], near, far
         if skeleton.ends[joint].any() or skeleton.joint_count == 1:
             yield joint, skeleton.ends[joint], radii[joint], radii[joint]
 

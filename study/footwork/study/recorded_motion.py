@@ -1,5 +1,7 @@
 """What the characters of a recording did, as it was shown."""
 
+from collections import Counter
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,6 +13,7 @@ from footwork.motion.clip import Clip
 from footwork.motion.glb_writer import Part
 from footwork.motion.tick import TICK_RATE
 from footwork.runtime import recording as r
+from footwork.runtime.fight_recording import is_fight, replay_fight
 from footwork.runtime.replay import Replay
 
 MAX_NUMBERS = 1 << 27
@@ -31,26 +34,25 @@ class _Character:
 
 
 class _Watch:
-    """Keeps the poses of a replay by character: a slot may hold several, one after the other."""
+    """Keeps the poses of a replay by character.
 
-    def __init__(self, replay: Replay) -> None:
-        self._replay = replay
-        self._kept = 0
-        self._spawned = {slot: [] for slot in range(replay.recording.header.capacity)}
-        self.characters: dict[tuple[int, int], _Character] = {}
-        for record in replay.recording.records:
-            if isinstance(record, r.Spawned) and record.slot in self._spawned:
-                self._spawned[record.slot].append(record.tick)
+    Args:
+        who: the characters that a run of ticks shows, by the first of them: in the order of their rows.
+        where: the recording, for messages.
+    """
+
+    def __init__(self, who: Callable[[int], Sequence[Hashable]], where: str) -> None:
+        self._who, self._where, self._kept = who, where, 0
+        self.characters: dict[Hashable, _Character] = {}
 
     def see(self, tick: int, poses: NDArray[np.float32]) -> None:
         """Take the poses (ticks, frames, characters, 3 + 4 J) of the ticks up to one."""
         self._kept += poses.size
         if self._kept > MAX_NUMBERS:
-            raise InputError("shows more than can be exported at once", self._replay.recording.where)
+            raise InputError("shows more than can be exported at once", self._where)
         first = tick - len(poses) + 1
-        for row, slot in enumerate(self._replay.simulation.world.slots.tolist()):
-            born = sum(spawned <= first for spawned in self._spawned[slot])
-            character = self.characters.setdefault((slot, born), _Character(first))
+        for row, name in enumerate(self._who(first) if len(poses) else ()):
+            character = self.characters.setdefault(name, _Character(first))
             character.poses.append(poses[:, :, row].copy())
 
 
@@ -58,7 +60,7 @@ def recorded_motion(recording: r.Recording, bundle: Bundle) -> list[Part]:
     """What every character of a recording did, as it was shown: smoothed, with held feet, at the recorded rate.
 
     Args:
-        recording: what took effect.
+        recording: what took effect, or a match.
         bundle: what it was recorded with.
 
     Returns:
@@ -68,9 +70,7 @@ def recorded_motion(recording: r.Recording, bundle: Bundle) -> list[Part]:
     Raises:
         InputError: as ``Replay``, for a recording of nobody, and for one that is too long.
     """
-    replay = Replay(recording, bundle)
-    watch = _Watch(replay)
-    replay.run(watch.see)
+    watch = _fight(recording, bundle) if is_fight(recording) else _game(recording, bundle)
     characters = sorted(watch.characters.values(), key=lambda character: character.first)
     if not characters:
         raise InputError("shows no character, expected at least one", recording.where)
@@ -80,6 +80,26 @@ def recorded_motion(recording: r.Recording, bundle: Bundle) -> list[Part]:
         Part(f"character {number}", _clip(bundle, character, rate, number), (character.first - begin) / TICK_RATE)
         for number, character in enumerate(characters)
     ]
+
+
+def _fight(recording: r.Recording, bundle: Bundle) -> _Watch:
+    watch = _Watch(lambda _: (0, 1), recording.where)
+    replay_fight(recording, bundle, watch.see)
+    return watch
+
+
+def _game(recording: r.Recording, bundle: Bundle) -> _Watch:
+    """A slot may hold several characters, one after the other."""
+    replay = Replay(recording, bundle)
+    spawned = [record for record in recording.records if isinstance(record, r.Spawned)]
+
+    def who(first: int) -> list[tuple[int, int]]:
+        born = Counter(record.slot for record in spawned if record.tick <= first)
+        return [(slot, born[slot]) for slot in replay.simulation.world.slots.tolist()]
+
+    watch = _Watch(who, recording.where)
+    replay.run(watch.see)
+    return watch
 
 
 def _clip(bundle: Bundle, character: _Character, rate: float, number: int) -> Clip:
