@@ -194,7 +194,7 @@ def test_keys_are_recorded_as_a_trace_and_replayed(page, tmp_path):
     before = state(page)
     page.set_input_files("#load", tmp_path / "trace.csv")
     wait_until(page, f"Math.hypot(footwork.figure.place.x - {before.x}, footwork.figure.place.z - {before.z}) > 0.3")
-    wait_until(page, "footwork.transport.player === null")
+    wait_until(page, "footwork.transport.replay === null")
     (tmp_path / "bad.csv").write_text("tick,forward\n0,0\n1,0\n")
     page.set_input_files("#load", tmp_path / "bad.csv")
     wait_until(page, "document.getElementById('error').textContent.includes('no column strafe')")
@@ -238,6 +238,6 @@ def test_the_page_survives_a_restart_of_the_server(page, server):
 def test_play_serves_a_bundle_by_itself(page_files, tmp_path):
     write_bundle(tmp_path / "toy.footwork", toy_bundle())
     playing = played(tmp_path / "toy.footwork", "--seconds", "0.5")
-    said = playing.communicate(timeout=60)[1]
+    said = playing.communicate(timeout=110)[1]
     assert playing.returncode == 0, said
     assert "live view at http://127.0.0.1:" in said

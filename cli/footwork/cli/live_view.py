@@ -78,7 +78,7 @@ def show_live_view(
 
 async def _until_interrupted(seconds: float | None, look: Callable[[], None]) -> None:
     loop, stop = asyncio.get_running_loop(), asyncio.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, stop.set)
     end = loop.time() + seconds if seconds is not None else float("inf")
     while not stop.is_set() and loop.time() < end:

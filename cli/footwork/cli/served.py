@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 import subprocess
 import sys
 import threading
@@ -43,7 +44,11 @@ class Served:
             start_new_session=True,  # an interrupt at the terminal is ours; we stop it then
         )
         self._complaints: deque[str] = deque(maxlen=50)
-        self.address = self._listening()
+        try:
+            self.address = self._listening()
+        except BaseException:  # an interrupt too
+            self._process.kill()
+            raise
         self._reader = threading.Thread(target=self._complaints.extend, args=(self._process.stderr,), daemon=True)
         self._reader.start()
         self.summary: dict[str, Any] = {}
@@ -89,9 +94,22 @@ class Served:
 
 @contextmanager
 def serving(bundle: Path, rate: int) -> Iterator[Served]:
-    """A server for as long as the block lasts."""
-    server = Served(bundle, rate)
+    """A server for as long as the block lasts; being told to end, or losing the terminal, ends the block."""
+    with _interrupted_by("SIGTERM", "SIGHUP"):
+        server = Served(bundle, rate)
+        try:
+            yield server
+        finally:
+            server.stop()
+
+
+@contextmanager
+def _interrupted_by(*names: str) -> Iterator[None]:
+    """Take signals as an interrupt, so that nothing that was started is left behind."""
+    numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
+    before = [signal.signal(number, signal.default_int_handler) for number in numbers]
     try:
-        yield server
+        yield
     finally:
-        server.stop()
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)

@@ -29,7 +29,7 @@ const graphs = [
   [new Graph(at("graphs"), "drawn every", "ms", 60, 1000 / 60), frames],
 ];
 const transport = new Transport(
-  () => players.map((player) => player.session.history),
+  players,
   () => camera.yaw,
   (text) => notices.complain(text)
 );
@@ -62,7 +62,7 @@ function bold(text) {
 
 // when: of the event that changed what is held, undefined where only time has passed.
 function ask(when) {
-  if (transport.player) return;
+  if (transport.replay) return;
   const pad = gamepad();
   for (const { session: one, welcome } of players) {
     if (welcome) one.ask(wishOf(welcome, camera.yaw, keyboard, pad), when);
@@ -70,7 +70,7 @@ function ask(when) {
 }
 
 function replay(seconds) {
-  const { keys, yaw } = transport.player.advance(transport.paused ? 0 : seconds);
+  const { keys, yaw } = transport.replay.advance(transport.paused ? 0 : seconds);
   camera.yaw = yaw;
   for (const player of players) player.session.ask({ keys: { view_yaw: yaw, ...keys } });
 }
@@ -86,10 +86,10 @@ function turn(now) {
   requestAnimationFrame(turn);
   const seconds = Math.min(0.25, Math.max(0, now - before) / 1000);
   turnByPad(seconds);
-  if (transport.player) replay(seconds);
+  if (transport.replay) replay(seconds);
   else ask();
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
-  for (const player of players) player.show(seconds);
+  for (const player of players) player.show(now, seconds);
   camera.follow(figure.place, figure.facing, seconds);
   if (quality.allows(now)) draw(now);
   before = now;

@@ -2,6 +2,7 @@
 import { Card, put } from "./card.js";
 import { Figure } from "./figure.js";
 import { Session } from "./session.js";
+import { Stepper } from "./stepper.js";
 
 const COLORS = [
   { shirt: 0x5d88a6, trousers: 0x646d78, trail: 0xff9d2e },
@@ -16,6 +17,9 @@ export class Player {
     this.figure = new Figure(stage.scene, COLORS[number % COLORS.length]);
     this.card = new Card(cards, title);
     this.session = new Session(`/socket/${number}`, -APART * number, (said) => this.#hear(said, hear));
+    this.stepper = new Stepper(this.session);
+    this.pace = 1;
+    this.paused = false;
   }
 
   get welcome() {
@@ -30,7 +34,31 @@ export class Player {
     hear(said);
   }
 
-  show(seconds) {
+  // A world in lock-step goes slowly or stands still itself; of any other one only what is shown does.
+  setPace(pace) {
+    this.pace = pace;
+    if (!this.stepper.isNeeded) this.session.history.setPace(pace);
+  }
+
+  pause(paused) {
+    this.paused = paused;
+    if (!paused || !this.stepper.isNeeded) this.session.history.pause(paused);
+  }
+
+  step(frames) {
+    this.paused = true;
+    const { history } = this.session;
+    if (!this.stepper.isNeeded || frames < 0 || history.shown < history.last) {
+      history.step(frames);
+    } else {
+      history.pause(false);
+      this.stepper.once();
+    }
+  }
+
+  // now: ms; seconds: since the last time.
+  show(now, seconds) {
+    this.stepper.advance(now, this.paused ? 0 : this.pace);
     if (this.welcome) this.figure.show(this.session.history.advance(seconds, this.welcome.frame_rate));
   }
 

@@ -5,37 +5,33 @@ import { put } from "./card.js";
 const at = (id) => document.getElementById(id);
 
 export class Transport {
-  // histories: gives those of all characters; yaw: gives the view's; complain: tells a person.
-  constructor(histories, yaw, complain) {
-    Object.assign(this, { histories, yaw, complain, recorder: null, player: null, paused: false });
+  // players: all characters; yaw: gives the view's; complain: tells a person.
+  constructor(players, yaw, complain) {
+    Object.assign(this, { players, yaw, complain, recorder: null, replay: null, paused: false });
     at("pause").onclick = () => this.pause();
     at("back").onclick = () => this.step(-1);
     at("forth").onclick = () => this.step(1);
-    at("pace").onchange = (event) => this.#each((history) => history.setPace(Number(event.target.value)));
-    at("when").oninput = (event) => this.#each((history) => history.seek(Number(event.target.value)));
+    at("pace").onchange = (event) => this.#each((player) => player.setPace(Number(event.target.value)));
+    at("when").oninput = (event) => this.#each((player) => player.session.history.seek(Number(event.target.value)));
     at("record").onclick = () => this.#record();
     at("load").onchange = (event) => this.#load(event.target);
-    at("end").onclick = () => (this.player = null);
-    at("place").oninput = (event) => (this.player.seconds = event.target.value * this.player.length);
+    at("end").onclick = () => (this.replay = null);
+    at("place").oninput = (event) => (this.replay.seconds = event.target.value * this.replay.length);
   }
 
   #each(change) {
-    this.histories().forEach(change);
+    this.players.forEach(change);
     document.activeElement?.blur(); // so that keys go to the character again
-  }
-
-  get pace() {
-    return Number(at("pace").value);
   }
 
   pause(paused = !this.paused) {
     this.paused = paused;
-    this.#each((history) => history.pause(paused));
+    this.#each((player) => player.pause(paused));
   }
 
   step(frames) {
     this.paused = true;
-    this.#each((history) => history.step(frames));
+    this.#each((player) => player.step(frames));
   }
 
   #record() {
@@ -51,22 +47,21 @@ export class Transport {
     const [file] = input.files;
     input.value = "";
     try {
-      if (file) this.player = new TracePlayer(parseTrace(await file.text()), this.yaw());
+      if (file) this.replay = new TracePlayer(parseTrace(await file.text()), this.yaw());
     } catch (error) {
       this.complain(`${file.name}: ${error.message}`);
     }
   }
 
   show() {
-    const [history] = this.histories();
-    if (this.player?.isOver) this.player = null;
+    if (this.replay?.isOver) this.replay = null;
     put(at("pause"), this.paused ? "Go on" : "Pause");
     at("pause").classList.toggle("on", this.paused);
     put(at("record"), this.recorder ? `Save ${this.recorder.seconds.toFixed(0)} s of keys` : "Record keys");
     at("record").classList.toggle("on", this.recorder !== null);
-    at("replaying").hidden = this.player === null;
-    if (history) this.#showPlace(history);
-    if (this.player) this.#showReplay();
+    at("replaying").hidden = this.replay === null;
+    this.#showPlace(this.players[0].session.history);
+    if (this.replay) this.#showReplay();
   }
 
   #showPlace(history) {
@@ -75,8 +70,8 @@ export class Transport {
   }
 
   #showReplay() {
-    if (document.activeElement !== at("place")) at("place").value = this.player.seconds / this.player.length;
-    put(at("second"), `${this.player.seconds.toFixed(1)} of ${this.player.length.toFixed(0)} s`);
+    if (document.activeElement !== at("place")) at("place").value = this.replay.seconds / this.replay.length;
+    put(at("second"), `${this.replay.seconds.toFixed(1)} of ${this.replay.length.toFixed(0)} s`);
   }
 }
 
