@@ -318,8 +318,17 @@ def test_an_hour_between_two_keys_is_no_hour_of_frames(tmp_path: Path):
         {"buffer": 0, "byteLength": 12},
         {"buffer": 0, "byteOffset": 12, "byteLength": 36},
     ]
-    with pytest.raises(InputError, match="expected at most 4000000"):
+    with pytest.raises(InputError, match="expected at most 1000000"):
         read_glb(put(tmp_path / "long.glb", document, blob))
+
+
+def test_many_long_animations_of_the_same_few_bytes_are_refused(tmp_path: Path):
+    hand_made(tmp_path, "LINEAR", [[0, 0, 0]] * 2)
+    document, blob = pieces(tmp_path / "hand.glb")
+    blob = np.array([0.0, 1000.0], "<f4").tobytes() + blob[8:]
+    document["animations"] *= 1000
+    with pytest.raises(InputError, match="frames of joints and more, expected at most 4000000"):
+        read_glb(put(tmp_path / "many.glb", document, blob))
 
 
 @pytest.mark.parametrize("text", [b"{", b"[" * 100_000, b"\xff\xfe", b"null", b'{"asset":{"version":2}}'])

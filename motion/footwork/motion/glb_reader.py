@@ -1,5 +1,6 @@
 """GLB to clips: every animation of every body of a file, at the rate of its keys."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -23,7 +24,7 @@ from footwork.motion.skeleton import Skeleton
 
 SEPARATOR = "#"
 """Between the name of a file that holds several clips, and the clip's own."""
-MAX_POSES = 4_000_000  # frames times joints
+MAX_POSES = 4_000_000  # frames times joints, of all clips together
 _SLOWEST, _FASTEST = 5.0, 240.0  # keys a second
 _EVEN, _WHOLE = 2e-3, 1e-4  # of an interval, of a rate
 _STILL = 1e-6  # metres by which joints leave their offsets through rounding
@@ -33,6 +34,9 @@ class _Found(NamedTuple):
     animation: str
     body: Body
     curves: Curves
+    fps: float
+    start: float
+    frames: int
 
 
 def read_glb(path: str | Path) -> list[Clip]:
@@ -60,14 +64,18 @@ def read_glb(path: str | Path) -> list[Clip]:
 
 
 def _found(document: g.Document, tree: NodeTree, numbers: Numbers) -> Iterator[_Found]:
-    bodies = bodies_of(document, tree)
+    bodies, poses = bodies_of(document, tree), 0
     for number, animation in enumerate(document.animations):
         curves = _curves(animation, numbers)
         for body in bodies:
             nodes = {*body.above, *body.nodes}
             own = {key: curve for key, curve in curves.items() if key[0] in nodes}
             if own:
-                yield _Found(animation.name or str(number), body, own)
+                found = _Found(animation.name or str(number), body, own, *_sampling(own, tree.where))
+                poses += found.frames * len(body.nodes)
+                if poses > MAX_POSES:
+                    raise InputError(f"{poses} frames of joints and more, expected at most {MAX_POSES}", tree.where)
+                yield found
 
 
 def _curves(animation: g.Animation, numbers: Numbers) -> Curves:
@@ -90,13 +98,13 @@ def _names(found: Sequence[_Found], file: str) -> list[str]:
     for each in found:
         parts = [each.animation] * (len(animations) > 1) + [each.body.name] * (len(bodies) > 1)
         names.append(SEPARATOR.join([file, *parts]))
-    again = {name for name in names if names.count(name) > 1}
-    return [f"{name}.{number}" if name in again else name for number, name in enumerate(names)]
+    times = Counter(names)
+    return [f"{name}.{number}" if times[name] > 1 else name for number, name in enumerate(names)]
 
 
 def _clip(tree: NodeTree, found: _Found, name: str) -> Clip:
-    body, curves = found.body, found.curves
-    fps, seconds = _sampling(curves, len(body.nodes), tree.where)
+    body, curves, fps = found.body, found.curves, found.fps
+    seconds = found.start + np.arange(found.frames) / fps
     rest_places, rest_turns = world_poses(tree, body, {}, 0.0)
     places, turns = world_poses(tree, body, curves, seconds)
     at = {node: joint for joint, node in enumerate(body.nodes)}
@@ -121,16 +129,16 @@ def _clip(tree: NodeTree, found: _Found, name: str) -> Clip:
     )
 
 
-def _sampling(curves: Curves, joints: int, where: str) -> tuple[float, NDArray[np.float64]]:
-    """Frames a second, and the times of the frames: those of the keys, where these come evenly."""
+def _sampling(curves: Curves, where: str) -> tuple[float, float, int]:
+    """Frames a second, when the first is, and how many: those of the keys, where these come evenly."""
     times = [curve.times for curve in curves.values()]
     start, end = min(keys[0] for keys in times), max(keys[-1] for keys in times)
     fps = _rate(max(times, key=len))
     frames = int((end - start) * fps + 0.01) + 1
-    if frames > MAX_FRAMES or frames * joints > MAX_POSES:
-        problem = f"{frames} frames of {joints} joints at {fps:g} frames a second"
-        raise InputError(f"{problem}, expected at most {MAX_POSES} joints of frames", where)
-    return fps, start + np.arange(frames) / fps
+    if frames > MAX_FRAMES:
+        problem = f"{frames} frames at {fps:g} frames a second in one animation"
+        raise InputError(f"{problem}, expected at most {MAX_FRAMES}", where)
+    return fps, float(start), frames
 
 
 def _rate(keys: NDArray[np.float64]) -> float:

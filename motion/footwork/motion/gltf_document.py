@@ -9,7 +9,7 @@ from footwork.motion.textfile import MAX_NAME
 
 FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT = 5126, 5121, 5123, 5125
 VERTICES, INDICES = 34962, 34963
-MAX_NODES = 20_000
+MAX_NODES, MAX_ANIMATIONS = 20_000, 2_000
 
 Index = Annotated[int, Meta(ge=0, lt=2**31)]
 Name = Annotated[str, Meta(max_length=MAX_NAME)]
@@ -128,7 +128,7 @@ class Document(Part):
     skins: Annotated[list[Skin], Meta(max_length=MAX_NODES)] = []
     meshes: list[Any] = []
     materials: list[Any] = []
-    animations: Annotated[list[Animation], Meta(max_length=MAX_NODES)] = []
+    animations: Annotated[list[Animation], Meta(max_length=MAX_ANIMATIONS)] = []
     accessors: list[Accessor] = []
     buffer_views: list[BufferView] = []
     buffers: list[Buffer] = []
