@@ -8,7 +8,7 @@ from fighting_bundle import fighting_bundle, fighting_ground
 from footwork.controllers.fighting_style import STYLES
 from footwork.runtime.match import Match
 from footwork.study.exchange_sheet import exchange_sheet
-from footwork.study.fight_report import counts_report, distances, facing_errors, timed
+from footwork.study.fight_report import counts_report, distances, facing_errors, longest_run, timed
 
 
 def test_distance_and_facing_are_those_that_the_match_tells():
@@ -30,9 +30,15 @@ def test_a_report_adds_up():
     assert seen["distance_m"]["smallest"] <= seen["distance_m"]["mean"] <= seen["distance_m"]["p95"]
     assert seen["facing_error_deg"]["mean"] <= seen["facing_error_deg"]["p95"] <= 180.0
     assert math.isclose(sum(counts["activity_share"].values()), 1.0)
+    assert 0.0 <= seen["longest_pause_s"] <= 40.0
     assert counts["attacks"] == sum(one["attacks"] for one in counts["fighters"])
     assert counts["hits"] <= counts["strikes"]
     assert counts["dead_ends"] == 0
+
+
+def test_the_longest_run_is_found():
+    assert longest_run(np.array([1, 1, 0, 1, 1, 1, 0], dtype=bool)) == 3
+    assert longest_run(np.zeros(4, dtype=bool)) == 0
 
 
 def test_an_exchange_is_drawn(tmp_path):

@@ -37,10 +37,11 @@ def aim(world: FightMap, fighters: NDArray, styles: NDArray, who: int, paths: Pa
         there: the place that it leads to.
     """
     fighter, node = fighters[who], world.nodes[target]
-    if fighter.activity == SHADOW:
-        return 0.0, 0.0, _facing(styles[who], there, triple(paths.place[1 - who], 0))
     begun = fighter.goal == NO_GOAL or node.segment == fighter.goal
-    if fighter.activity != ATTACK or not begun or node.to_contact < 0 or node.to_contact >= FURTHEST:
+    struck = fighter.activity == ATTACK and begun and node.to_contact < 0
+    if fighter.activity == SHADOW or struck:
+        return 0.0, 0.0, _facing(styles[who], there, triple(paths.place[1 - who], 0))
+    if fighter.activity != ATTACK or not begun or node.to_contact >= FURTHEST:
         return 0.0, 0.0, 0.0
     activity = fighters[1 - who].activity
     return _to_target(world, styles[who], who, paths, activity, target, there)

@@ -72,8 +72,8 @@ class FightingStyle:
 STYLES = {
     "balanced": FightingStyle(),
     "aggressive": FightingStyle(distance=1.0, eagerness=1.0, readiness=0.15, near=0.5, attack_cost=0.15),
-    "patient": FightingStyle(distance=1.5, eagerness=0.25, readiness=0.6, horizon=1.2, reach=0.08),
-    "evasive": FightingStyle(distance=1.7, eagerness=0.35, readiness=1.0, near=0.8, evade_cost=0.05),
+    "patient": FightingStyle(distance=1.5, eagerness=0.3, readiness=0.8, horizon=1.2),
+    "evasive": FightingStyle(distance=1.7, readiness=1.0, near=0.8, evade_cost=0.05),
 }
 """The styles that need no file, by name."""
 

@@ -22,6 +22,7 @@ from footwork.motion.fighting_points import fighting_points
 from footwork.motion.hops import Hops, hops_within
 from footwork.motion.shadowing_lookahead import rules_of_shadowing
 from footwork.motion.shadowing_task import ShadowingTask
+from footwork.runtime.characters import Motion, motion_of
 from footwork.runtime.hits import BodyPoints
 from footwork.runtime.match_rules import MatchRules, rules_for_kernels
 from footwork.runtime.match_ticks import Ring, Room, fight, new_room
@@ -41,11 +42,13 @@ class FightGround:
         bundle: the bundle.
         world: its fight map.
         hops: of the state in which fighters shadow.
+        motion: what worlds on it share.
     """
 
     bundle: Bundle
     world: FightMap
     hops: Hops
+    motion: Motion
 
 
 def fight_ground(bundle: Bundle) -> FightGround:
@@ -57,7 +60,7 @@ def fight_ground(bundle: Bundle) -> FightGround:
     world = fight_map(bundle)
     if bundle.annotation is None:
         raise InputError("no states", bundle.graph.where)
-    return FightGround(bundle, world, hops_within(bundle.graph, bundle.annotation, 0))
+    return FightGround(bundle, world, hops_within(bundle.graph, bundle.annotation, 0), motion_of(bundle.graph))
 
 
 def table_of(bundle: Bundle) -> TableShadowing | None:
@@ -135,7 +138,7 @@ class Match:
             raise InputError(f"seed {seed}, expected 0 or more", "match")
         graph = ground.bundle.graph
         self.ground, self.seed, self.styles, self.rules, self.shadowing = ground, seed, tuple(styles), rules, shadowing
-        self.world = World(graph, 2, inertialise=inertialise, foot_lock=foot_lock)
+        self.world = World(graph, 2, inertialise=inertialise, foot_lock=foot_lock, motion=ground.motion)
         self.fighters = new_fighters(seed)
         self.tally: Tally = new_tally()
         lookahead = rules_of_shadowing(ShadowingTask()) if shadowing is None else shadowing.rules

@@ -37,7 +37,7 @@ class MatchRules:
     limb: float = within(0.07, 0.0, 0.2)
     damage: float = within(0.1, 0.0, 1.0)
     full_speed: float = within(5.0, 0.5, 20.0)
-    recovery: float = within(0.1, 0.0, 1.0)
+    recovery: float = within(0.06, 0.0, 1.0)
     start: float = within(2.0, 0.5, 10.0)
     where: str = field(default="match", compare=False)
 

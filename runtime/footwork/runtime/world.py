@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from footwork.motion.angle import wrapped_angle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
-from footwork.runtime.characters import motion_of, no_characters, smoothing
+from footwork.runtime.characters import Motion, motion_of, no_characters, smoothing
 from footwork.runtime.foot_lock import move_locks
 from footwork.runtime.motion_rows import VELOCITY
 from footwork.runtime.rotation_kernels import turned
@@ -32,6 +32,7 @@ class World:
         inertialise: whether transitions are smoothed; without it the pose jumps.
         foot_lock: whether feet that stand stay where they are shown; without it they slide as much as transitions do.
         halflife: of what inertialisation adds, s.
+        motion: ``motion_of(graph)`` of another world, to be shared; made anew where not given.
 
     Attributes:
         active: which slots hold a character.  # (capacity,) bool
@@ -56,6 +57,7 @@ class World:
         inertialise: bool = True,
         foot_lock: bool = True,
         halflife: float = HALFLIFE,
+        motion: Motion | None = None,
     ) -> None:
         if capacity < 1:
             raise WorldError(f"capacity is {capacity}, expected at least 1")
@@ -66,7 +68,7 @@ class World:
         self.capacity = capacity
         self.active = np.zeros(capacity, dtype=np.bool_)
         self.slots = np.flatnonzero(self.active)
-        self.motion = motion_of(graph)
+        self.motion = motion_of(graph) if motion is None else motion
         self.smoothing = smoothing(inertialise, foot_lock, halflife)
         self.characters = no_characters(capacity, joints, len(self.motion.legs))
         self.node, self.place = self.characters.node, self.characters.place

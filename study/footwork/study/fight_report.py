@@ -32,13 +32,18 @@ class Watched:
         self._activity.append(track.activity)
 
     def report(self) -> dict[str, Any]:
-        """Distance, metres, and facing error, degrees, of both: mean and 95 %; that of shadowing by itself."""
+        """Distance, metres, and facing error, degrees, of both: mean and 95 %; that of shadowing by itself.
+
+        And the longest time in which neither did anything but shadow.
+        """
         distance, facing = np.concatenate(self._distance), np.degrees(np.concatenate(self._facing))
-        shadowing = facing[np.concatenate(self._activity) == 0]
+        activity = np.concatenate(self._activity)
+        shadowing = facing[activity == 0]
         apart = {"mean": float(distance.mean()), "p95": float(np.percentile(distance, 95))}
         error = {"mean": float(facing.mean()), "p95": float(np.percentile(facing, 95))}
         alone = {"shadow_mean": float(shadowing.mean()) if shadowing.size else None}
         return {
+            "longest_pause_s": longest_run((activity == 0).all(axis=1)) / TICK_RATE,
             "facing_error_deg": error | alone,
             "distance_m": apart | {"smallest": float(distance.min()), "largest": float(distance.max())},
         }
@@ -53,6 +58,12 @@ def facing_errors(track: Track) -> NDArray[np.float64]:
     """How far each looks past the other, radians.  # (T, 2)"""
     away = (track.place[:, 1, :2] - track.place[:, 0, :2])[:, None] * np.array([1.0, -1.0])[:, None]
     return np.abs(wrapped(np.arctan2(away[..., 0], away[..., 1]) - track.place[..., 2]))
+
+
+def longest_run(of: NDArray[np.bool_]) -> int:
+    """How many in a row are true at most.  # (T,)"""
+    changes = np.flatnonzero(np.diff(of, prepend=False, append=False))
+    return int((changes[1::2] - changes[::2]).max(initial=0))
 
 
 def timed(match: Match, ticks: int) -> tuple[Watched, float]:
