@@ -4,6 +4,8 @@ It is the very match that ``footwork fight`` plays: an agent takes the superviso
 attack or evade; how that is done is decided by look-ahead on the motion graph as ever.
 """
 
+import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -37,6 +39,7 @@ OBSERVED = (
 """What an agent sees of the match, by place in its observation: the distance as a part of ``FAR``, the bearing
 of the opponent and its facing as seen from the fighter, what both have left and are doing, and the part of the round
 still to come."""
+_DOES = np.eye(len(ACTIVITIES)).tolist()
 WON = 1.0
 """The reward of a round won; the opponent gets as much less than none."""
 
@@ -69,9 +72,9 @@ class FightEnv(ParallelEnv[str, NDArray[np.float32], Any]):
         self._ground, self._ticks = ground, ticks
         self._rules, self._style = rules or MatchRules(), style or STYLES["balanced"]
         self._shadowing, self._seeds = table_of(ground.bundle), np.random.default_rng()
-        self._low = np.array([-1.0 if name.endswith(("sine", "cosine")) else 0.0 for name in OBSERVED], np.float32)
+        low = np.array([-1.0 if name.endswith(("sine", "cosine")) else 0.0 for name in OBSERVED], np.float32)
         self.metadata = {"name": "footwork_fight_v0", "render_modes": []}
-        self.observation_spaces = {name: Box(self._low, np.ones_like(self._low)) for name in FIGHTERS}
+        self.observation_spaces = {name: Box(low, np.ones_like(low)) for name in FIGHTERS}
         self.action_spaces = {name: Discrete(len(ACTIVITIES)) for name in FIGHTERS}
         self.possible_agents = list(FIGHTERS)
         self.agents: list[str] = []
@@ -149,14 +152,25 @@ class FightEnv(ParallelEnv[str, NDArray[np.float32], Any]):
         return {name: float(each[who] - each[1 - who]) for who, name in enumerate(FIGHTERS)}
 
     def _observations(self) -> dict[str, NDArray[np.float32]]:
-        return {name: self._observation(who) for who, name in enumerate(FIGHTERS)}
+        match = self._match
+        places, doing = match.world.place.tolist(), match.fighters["activity"].tolist()
+        strength = list(zip(match.health.tolist(), match.stamina.tolist(), strict=True))
+        left = _part(1.0 - match.tick / (self._rules.round_seconds * TICK_RATE))
+        found = {}
+        for who, name in enumerate(FIGHTERS):
+            other = 1 - who
+            numbers = [*_relative(places[who], places[other]), *map(_part, strength[who] + strength[other])]
+            found[name] = np.array([*numbers, *_DOES[doing[who]], *_DOES[doing[other]], left], np.float32)
+        return found
 
-    def _observation(self, who: int) -> NDArray[np.float32]:
-        match, other = self._match, 1 - who
-        seen, doing = match.relative(who), match.fighters["activity"]
-        activities = np.eye(len(ACTIVITIES))[[doing[who], doing[other]]].ravel()
-        time_left = 1.0 - match.tick / (self._rules.round_seconds * TICK_RATE)
-        angles = [turn(angle) for angle in (seen.bearing, seen.facing) for turn in (np.sin, np.cos)]
-        strength = [match.health[who], match.stamina[who], match.health[other], match.stamina[other]]
-        numbers = [min(seen.distance / FAR, 1.0), *angles, *strength, *activities, max(time_left, 0.0)]
-        return np.clip(np.array(numbers, np.float32), self._low, 1.0)
+
+def _relative(own: Sequence[float], other: Sequence[float]) -> tuple[float, ...]:
+    """The distance, and sine and cosine of the bearing and of the facing, of one place seen from another."""
+    dx, dz, turn = other[0] - own[0], other[1] - own[1], other[2] - own[2]
+    distance, bearing = math.hypot(dx, dz), math.atan2(dx, dz) - own[2]
+    return min(distance / FAR, 1.0), math.sin(bearing), math.cos(bearing), math.sin(turn), math.cos(turn)
+
+
+def _part(value: float) -> float:
+    """Within 0..1."""
+    return min(max(value, 0.0), 1.0)
