@@ -167,7 +167,7 @@ def test_the_page_is_served_and_nothing_else():
         assert page.startswith("HTTP/1.1 200")
         assert page.endswith("<p>the page</p>")
         assert "default-src 'self'" in page
-        assert (await fetched(bridge, "/about.json")).endswith('{"titles": ["toy"]}')
+        assert (await fetched(bridge, "/about.json")).endswith('{"titles": ["toy"], "film": null}')
         assert (await fetched(bridge, "/../pyproject.toml")).startswith("HTTP/1.1 404")
         assert (await fetched(bridge, "/socket/1")).startswith("HTTP/1.1 404")
         for host in ("evil.example", "127.0.0.1.evil.example", ""):

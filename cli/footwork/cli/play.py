@@ -15,8 +15,10 @@ from footwork.errors import InputError
 
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help loads nothing more
     from footwork.protocol.curve import CurveKeys
+    from footwork.viewer.page_files import PageFile
 
 Off = Parameter(negative=())
+FIGHT_SECONDS = 60.0
 _ADDRESSES = ("tcp://", "ipc://")
 
 
@@ -26,6 +28,9 @@ def play(
     /,
     *,
     text: Annotated[bool, Off] = False,
+    fight: Annotated[bool, Off] = False,
+    styles: str = "balanced,balanced",
+    seed: int = 0,
     listen: str = "127.0.0.1:0",
     host: Annotated[Sequence[str], Parameter(negative=())] = (),
     rate: int = 60,
@@ -44,6 +49,9 @@ def play(
         target: A bundle, or a server's address such as tcp://127.0.0.1:5555.
         other: Another one, to be played side by side by the same keys.
         text: Play in the terminal instead of a browser.
+        fight: Watch two AI fighters on a bundle that `footwork fight` takes, of --seconds, else of a minute.
+        styles: How they fight, as in `footwork fight`.
+        seed: What `footwork fight` is given for the same fight.
         listen: Where the page is served; port 0 takes any free one. Only this machine reaches it unless told otherwise.
         host: A further name that the page may be opened by, such as game.local:8000; may be given several times.
         rate: Frames sent a second: 30, 60 or 120, where a bundle is served.
@@ -56,6 +64,12 @@ def play(
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
     curve = _curve(key, server_key)
     files = None if text else live_view_files()
+    if fight:
+        if files is None or other is not None:
+            raise InputError("one bundle, in a browser", "--fight")
+        film = _film(_bundle(target), styles, seed, seconds)
+        show_live_view([], {**files, **film}, listen=listen, hosts=host, open_browser=open_browser)
+        return
     targets = [target] if other is None else [target, other]
     with _servers(targets, rate) as (addresses, served):
         if files is None:
@@ -92,6 +106,16 @@ def _servers(targets: Sequence[str], rate: int) -> Iterator[tuple[list[str], lis
                 served.append(held.enter_context(serving(_bundle(target), rate)))
             addresses.append(target if target.startswith(_ADDRESSES) else served[-1].address)
         yield addresses, served
+
+
+def _film(bundle: Path, styles: str, seed: int, seconds: float | None) -> dict[str, PageFile]:
+    """The film of a fight, as a file of the page."""
+    from footwork.cli.film import fight_film
+    from footwork.viewer.bridge import FILM
+    from footwork.viewer.page_files import PageFile
+
+    names = [name.strip() for name in styles.split(",")]
+    return {FILM: PageFile("application/octet-stream", fight_film(bundle, names, seed, seconds or FIGHT_SECONDS))}
 
 
 def _title(target: str) -> str:

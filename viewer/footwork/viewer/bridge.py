@@ -20,6 +20,8 @@ SOCKET = "/socket/"
 """Where a page's WebSocket connects, followed by the number of the server."""
 ABOUT = "/about.json"
 """Where the page asks whom it shows."""
+FILM = "/film.msgpack"
+"""Where a film lies that is shown in place of what servers do."""
 CHARACTERS = 8
 # The protocol's limit is 1,024, which is answered; beyond this a connection is closed.
 _MOST_BYTES = 8192
@@ -68,7 +70,8 @@ class Bridge:
         characters: int = CHARACTERS,
         curve: CurveKeys | None = None,
     ) -> None:
-        about = json.dumps({"titles": [server.title for server in servers]}).encode()
+        titles = [server.title for server in servers]
+        about = json.dumps({"titles": titles, "film": FILM if FILM in files else None}).encode()
         self._files = dict(files) | {ABOUT: PageFile("application/json", about)}
         self._servers = {f"{SOCKET}{number}": server.address for number, server in enumerate(servers)}
         self._listen, self._curve = listen, curve

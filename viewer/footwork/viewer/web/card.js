@@ -19,6 +19,8 @@ export class Card {
     const feet = row(list, "feet");
     this.feet = { left: element("span", "foot", feet), right: element("span", "foot", feet) };
     for (const [side, foot] of Object.entries(this.feet)) foot.textContent = side;
+    this.health = element("meter", "", this.root);
+    this.health.title = "health";
     this.strip = element("canvas", "", this.root);
     this.strip.title = "The last ten seconds: behaviours, and strokes at transitions";
     this.jumped = -Infinity;
@@ -32,6 +34,8 @@ export class Card {
     this.tick = pose.tick;
     put(this.behaviour, welcome.behaviours[pose.behaviour] ?? "other");
     this.transition.classList.toggle("now", now - this.jumped < FLASH_MS);
+    this.health.hidden = pose.health === undefined;
+    this.health.value = pose.health ?? 1;
     put(this.clip, welcome.clips[pose.clip] ?? "none");
     put(this.frame, `${pose.sourceFrame}, tick ${pose.tick}`);
     put(this.speed, `${figure.speed.toFixed(2)} m/s, facing ${degrees(pose.facing)}°`);

@@ -1,10 +1,12 @@
-// The poses of the last minute, and which of them is shown: the newest, or one that the player stopped at.
+// The poses of the last minute, or all those of a film, and which of them is shown: the newest, or one before.
 import { between } from "./pose.js";
 
 const SECONDS = 60;
 
 export class History {
-  constructor() {
+  constructor(seconds = SECONDS) {
+    this.seconds = seconds;
+    this.goesOn = seconds < Infinity; // there will be more, and one may want to see the newest
     this.poses = [];
     this.shown = 0; // index, a fraction while it is shown slowly
     this.live = true;
@@ -15,7 +17,7 @@ export class History {
   add(pose, now) {
     pose.at = now;
     this.poses.push(pose);
-    while (now - this.poses[0].at > 1000 * SECONDS) {
+    while (now - this.poses[0].at > 1000 * this.seconds) {
       this.poses.shift();
       this.shown = Math.max(0, this.shown - 1);
     }
@@ -40,18 +42,18 @@ export class History {
 
   #play(frames) {
     this.shown = Math.min(this.last, this.shown + frames);
-    this.live = this.pace >= 1 && this.shown >= this.last;
+    this.live = this.pace >= 1 && this.shown >= this.last && this.goesOn;
   }
 
   pause(paused) {
     this.paused = paused;
     this.live = this.live && !paused;
-    if (!paused && this.pace >= 1) this.live = true;
+    if (!paused && this.pace >= 1) this.live = this.goesOn;
   }
 
   setPace(pace) {
     this.pace = pace;
-    this.live = pace >= 1 && !this.paused;
+    this.live = pace >= 1 && !this.paused && this.goesOn;
   }
 
   // Frames forth or back from where it is.
@@ -62,7 +64,7 @@ export class History {
 
   // share: 0 the oldest, 1 the newest.
   seek(share) {
-    this.live = share >= 1 && !this.paused && this.pace >= 1;
+    this.live = share >= 1 && !this.paused && this.pace >= 1 && this.goesOn;
     this.shown = Math.max(0, share * this.last);
   }
 
@@ -70,9 +72,11 @@ export class History {
     return this.last > 0 ? this.shown / this.last : 1;
   }
 
-  // Seconds that the shown pose is behind the newest.
-  get behind() {
+  // Where in time the shown pose is: seconds of a film, or before the newest.
+  get told() {
     const shown = this.poses[Math.floor(this.shown)];
-    return shown ? (this.newest.at - shown.at) / 1000 : 0;
+    if (this.live || !shown) return "live";
+    const seconds = (this.goesOn ? shown.at - this.newest.at : shown.at) / 1000;
+    return `${seconds.toFixed(2).replace("-", "−")} s`;
   }
 }

@@ -1,6 +1,7 @@
 // The live view: whom it shows, what the player asks of them, and what is drawn.
 import { Camera } from "./cameras.js";
 import { put } from "./card.js";
+import { filmed } from "./film.js";
 import { gamepad } from "./gamepad.js";
 import { Graph } from "./graphs.js";
 import { Keyboard } from "./keyboard.js";
@@ -15,12 +16,15 @@ import { states, wishOf } from "./wish.js";
 const TOLD_MS = 80; // between updates of what is told beside the picture
 const at = (id) => document.getElementById(id);
 
-const { titles } = await (await fetch("about.json")).json();
+const about = await (await fetch("about.json")).json();
+const films = about.film ? await filmed(about.film) : [];
+document.body.classList.toggle("film", films.length > 0);
+const titles = about.film ? films.map((film) => film.title) : about.titles;
 const stage = new Stage(at("view"));
 const camera = new Camera(stage.camera, stage.canvas);
 const quality = new Quality(stage);
 const notices = new Notices();
-const players = titles.map((title, number) => new Player(stage, at("figures"), title, number, hear));
+const players = titles.map((title, number) => new Player(stage, at("figures"), title, number, hear, films[number]));
 const [{ session, figure }] = players; // whom the camera follows and the graphs tell of
 const frames = new Series(300);
 const graphs = [
@@ -90,9 +94,14 @@ function turn(now) {
   else ask();
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
   for (const player of players) player.show(now, seconds);
-  camera.follow(figure.place, figure.facing, seconds);
+  camera.follow(middle(), figure.facing, seconds);
   if (quality.allows(now)) draw(now);
   before = now;
+}
+
+// What is looked at: halfway between those who fight, else the first.
+function middle() {
+  return films.length ? figure.place.clone().add(players.at(-1).figure.place).multiplyScalar(0.5) : figure.place;
 }
 
 let drawnAt = performance.now();

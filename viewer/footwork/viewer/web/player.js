@@ -11,15 +11,17 @@ const COLORS = [
 const APART = 1.4; // metres between two at the start
 
 export class Player {
-  // number: which server of the bridge; hear: called with {lost}, {problem} or {welcome} for people.
-  constructor(stage, cards, title, number, hear) {
+  // number: which server of the bridge; hear: called with {lost}, {problem} or {welcome} for people; film: a stand-in
+  // for a session, see film.js.
+  constructor(stage, cards, title, number, hear, film) {
     this.title = title;
     this.figure = new Figure(stage.scene, COLORS[number % COLORS.length]);
     this.card = new Card(cards, title);
-    this.session = new Session(`/socket/${number}`, -APART * number, (said) => this.#hear(said, hear));
+    this.session = film ?? new Session(`/socket/${number}`, -APART * number, (said) => this.#hear(said, hear));
     this.stepper = new Stepper(this.session);
     this.pace = 1;
     this.paused = false;
+    if (film) this.#hear(film, hear);
   }
 
   get welcome() {

@@ -66,7 +66,7 @@ export class Transport {
 
   #showPlace(history) {
     if (document.activeElement !== at("when")) at("when").value = history.share;
-    put(at("ago"), history.live ? "live" : `−${history.behind.toFixed(2)} s`);
+    put(at("ago"), history.told);
   }
 
   #showReplay() {
