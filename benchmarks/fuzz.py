@@ -114,7 +114,7 @@ def run(messages: int, seed: int) -> dict[str, Any]:
         "us_a_message": round(1e6 * seconds / max(1, bench.said), 2),
         "refused": bench.host.refused,
         "told": dict(bench.refused.most_common()),
-        "sessions_begun": bench.host.sessions_begun,
+        "sessions_begun": bench.host.scenes.first.sessions_begun,
         "honest_poses": bench.honest_poses,
         "ticks": ticks,
         "memory_growth": round(growth, 4),

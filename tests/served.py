@@ -1,11 +1,13 @@
 """A server that runs, and a raw peer of it."""
 
 import threading
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
 import zmq
 
+from footwork.motion.bundle import Bundle
 from footwork.protocol import messages as m
 from footwork.protocol.client import Client
 from footwork.protocol.codec import decode_from_server
@@ -17,8 +19,10 @@ TIMEOUT = 5
 
 
 @contextmanager
-def serving(until: Callable[[], bool] | None = None, **options) -> Iterator[Server]:
-    server = Server(BUNDLE, bind="tcp://127.0.0.1:0", **options)
+def serving(
+    until: Callable[[], bool] | None = None, bundle: Bundle | Mapping[str, Bundle] = BUNDLE, **options
+) -> Iterator[Server]:
+    server = Server(bundle, bind="tcp://127.0.0.1:0", **options)
     thread = threading.Thread(target=server.run, args=(until,))
     thread.start()
     try:
@@ -62,3 +66,10 @@ def pose_that_acknowledges(client: Client, sequence: int) -> m.Pose:
 
 def consecutive(numbers: list[int]) -> bool:
     return numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+def until(condition, seconds=5.0):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.01)
+    assert condition()

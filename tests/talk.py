@@ -16,8 +16,12 @@ SECOND = 1_000_000_000
 class Talk:
     """A host, and what it said to whom."""
 
-    def __init__(self, frame_rate: int = 30, *, lockstep: bool = False, bundle: Bundle = BUNDLE) -> None:
-        self.host = Host(Simulation(bundle, LIMITS.characters), frame_rate, LIMITS, lockstep=lockstep)
+    def __init__(
+        self, frame_rate: int = 30, *, lockstep: bool = False, bundle: Bundle = BUNDLE, **others: Bundle
+    ) -> None:
+        bundles = {"bundle": bundle, **others}
+        simulations = {name: Simulation(each, LIMITS.characters) for name, each in bundles.items()}
+        self.host = Host(simulations, frame_rate, LIMITS, lockstep=lockstep)
         self.frames = frame_rate // 30
         self.now = 0
 

@@ -8,7 +8,7 @@ import zmq
 from footwork.errors import InputError
 from footwork.protocol.client import Client
 from footwork.protocol.errors import LocalError, RefusedError
-from footwork.protocol.spectator import Spectator, pose_topic
+from footwork.protocol.spectator import Spectator, Topics
 from footwork.runtime.server import Server
 from served import BUNDLE, serving
 
@@ -87,7 +87,7 @@ def test_in_lock_step_spectators_are_bounded_while_nobody_steps():
 
 
 def test_topics_are_no_beginnings_of_others():
-    topics = [pose_topic(number) for number in (0, 1, 10, 100, 65535)]
+    topics = [Topics().pose(number) for number in (0, 1, 10, 100, 65535)]
     assert not [(a, b) for a in topics for b in topics if a != b and b.startswith(a)]
 
 

@@ -45,5 +45,5 @@ def test_what_a_character_does_is_told_anew_in_another_bundle(talk):
     talk.say(b"a", spawn(1, 0, behaviour="stop"))
     talk.tick(b"a")
     latter = Simulation(BUNDLE, LIMITS.characters)
-    talk.host.succeed(Succession(talk.host.simulation, latter), talk.host.welcome_for(latter))
+    talk.host.succeed(Succession(talk.host.simulation, latter), talk.host.scenes.welcome_for("bundle", latter))
     assert [event.character for event in events(talk.tick(b"a"), "behaviour")] == [0]

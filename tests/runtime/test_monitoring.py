@@ -52,12 +52,14 @@ def test_metrics_tell_what_the_server_did(watched):
     server, address = watched
     with Client(server.address) as client:
         client.spawn(0)
-        next(client.poses())
+        next(pose for pose in client.poses() if pose.tick > 2)
         status, text = got(f"{address}/metrics")
     lines = dict(line.rsplit(" ", 1) for line in text.splitlines() if not line.startswith("#"))
     assert status == 200
     assert float(lines["footwork_ticks_total"]) >= 1
-    assert float(lines["footwork_sessions_total"]) == float(lines["footwork_characters"]) == 1
+    first = '{bundle="bundle"}'
+    assert float(lines[f"footwork_sessions_total{first}"]) == float(lines[f"footwork_characters{first}"]) == 1
+    assert float(lines["footwork_connections"]) >= 1
     assert float(lines["footwork_bytes_out_total"]) > float(lines["footwork_bytes_in_total"]) > 0
     assert float(lines['footwork_tick_seconds_bucket{le="+Inf"}']) == float(lines["footwork_tick_seconds_count"]) > 0
 

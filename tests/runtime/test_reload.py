@@ -1,7 +1,6 @@
 """A bundle replaced under a running server, and one that cannot be."""
 
 import threading
-import time
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -15,7 +14,7 @@ from footwork.protocol.pose_arrays import root_of
 from footwork.runtime.reload import Reloader
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.succession import Succession, nearest_nodes
-from served import serving
+from served import serving, until
 from toy_bundle import toy_bundle
 
 PACES = {"walk": (1.0, 2.0)}
@@ -35,16 +34,13 @@ def taller_bundle():
 def reloading(tmp_path, **options):
     path = tmp_path / "served.footwork"
     write_bundle(path, toy_bundle())
-    with serving() as server, Reloader(server, path, **options) as reloader, Client(server.address) as client:
+    with (
+        serving() as server,
+        Reloader(server, {"bundle": path}, **options) as reloader,
+        Client(server.address) as client,
+    ):
         client.spawn(7, x=20.0, z=-10.0)
         yield path, server, reloader, client
-
-
-def until(condition, seconds=5.0):
-    end = time.monotonic() + seconds
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.01)
-    assert condition()
 
 
 def test_sessions_go_on_in_the_new_bundle_and_are_told(tmp_path):

@@ -30,7 +30,7 @@ def test_a_lost_session_is_resumed_with_its_characters_and_numbers(talk):
     assert SHOWN[pose.behaviour] == "stop"
     talk.say(b"b", walk(4, 7))
     assert the_pose(talk.tick(b"b")).acknowledged == 4
-    assert talk.host.sessions_begun == 1
+    assert talk.host.scenes.first.sessions_begun == 1
 
 
 def test_a_session_whose_old_connection_seems_alive_is_taken_over(talk):

@@ -7,15 +7,18 @@ from footwork.protocol import messages as m
 from footwork.protocol.codec import encode
 from footwork.protocol.connection import State
 from footwork.protocol.errors import RATE, STALE, STATE, TICK, PeerError
+from footwork.runtime.host import Host
 from footwork.runtime.limits import Limits
 from footwork.runtime.session import Session
+from footwork.runtime.simulation import Simulation
+from toy_bundle import toy_bundle
 
 LIMITS = Limits(messages_per_tick=4, ahead_ticks=10, idle_seconds=2.0)
 
 
 @pytest.fixture
 def session():
-    session = Session(b"peer", LIMITS, now=0)
+    session = Session(b"peer", Host(Simulation(toy_bundle(), 1), 30, LIMITS).scenes.first, LIMITS, now=0)
     session.connection.state = State.OPEN
     return session
 

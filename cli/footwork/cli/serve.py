@@ -24,9 +24,7 @@ Off = Parameter(negative=())
 
 
 def serve(
-    bundle: Path,
-    /,
-    *,
+    *bundles: str,
     bind: str = "tcp://127.0.0.1:5555",
     rate: int = 60,
     seconds: float | None = None,
@@ -42,14 +40,15 @@ def serve(
     log_format: Annotated[Literal["text", "json"] | None, Parameter(name="--log")] = None,
     json: Annotated[bool, Off] = False,
 ) -> None:
-    """Serve a bundle's character to game clients over ZeroMQ, until interrupted.
+    """Serve the characters of a bundle, or of several, to game clients over ZeroMQ, until interrupted.
 
-    SIGTERM ends it with a bye to all clients; SIGHUP lets it read the bundle again and go on with that.
+    SIGTERM ends it with a bye to all clients; SIGHUP lets it read the bundles again and go on with those.
 
     Example: footwork serve walker.footwork --bind tcp://127.0.0.1:5555 --rate 60
 
     Args:
-        bundle: The bundle to serve.
+        bundles: What to serve: files, or NAME=FILE; clients that name no bundle play the first. Without NAME it is the
+            file's own name without its ending.
         bind: Where to listen; port 0 takes any free port. Only this machine can connect unless told otherwise.
         rate: Frames sent a second: 30, 60 or 120.
         seconds: Stop by itself after this long.
@@ -59,12 +58,13 @@ def serve(
         record: Record what takes effect, for `footwork replay`, into a new file in this folder.
         curve: Let in only clients whose keys are allowed in this folder of `footwork keys`.
         metrics: Answer /health and /metrics (Prometheus) over HTTP here, such as 127.0.0.1:9095.
-        watch: Read the bundle again whenever its file is replaced, as at SIGHUP.
-        shared: Keep the bundle in memory that all servers on this machine share which serve the same one.
+        watch: Read a bundle again whenever its file is replaced, as at SIGHUP.
+        shared: Keep bundles in memory that all servers on this machine share which serve the same ones.
         realtime: Take real-time priority and keep memory from being swapped out, where the system permits it.
         log_format: Log what happens on stderr, as text or one JSON object a line; otherwise only warnings.
         json: Print the summary as one JSON object when done.
     """
+    from footwork.cli.named_bundles import named_bundles
     from footwork.runtime.key_folder import KeyFolder
     from footwork.runtime.logs import logging_to_stderr
     from footwork.runtime.realtime import take_realtime
@@ -74,12 +74,13 @@ def serve(
 
     if seconds is not None and not seconds > 0.0:
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
+    paths = named_bundles(bundles)
     with ExitStack() as held:
         if log_format is not None:
             held.enter_context(logging_to_stderr(log_format))
         read = _read_shared if shared else _read
         server = Server(
-            read(bundle),
+            {name: read(path) for name, path in paths.items()},
             bind=bind,
             rate=rate,
             inertialise=inertialise,
@@ -90,7 +91,7 @@ def serve(
         )
         if metrics is not None:
             held.enter_context(_monitored(server, metrics))
-        reloader = held.enter_context(Reloader(server, bundle, read=read, watch=watch))
+        reloader = held.enter_context(Reloader(server, paths, read=read, watch=watch))
         tell = log if log_format is None else logging.getLogger(__name__).info
         for problem in take_realtime() if realtime else ():
             tell(problem)

@@ -32,6 +32,7 @@ class Client:
         events: kinds of events to be told of beside those that answer a message, of ``messages.EVENTS``.
         resume: the welcome's token of a session whose connection broke, to go on with it.
         curve: the client's keys and the server's, for a server that lets in only those it knows.
+        bundle: which of the server's bundles to play, the first unless given; the welcome tells all.
 
     Raises:
         LocalError: for an address that is none.
@@ -47,6 +48,7 @@ class Client:
         events: tuple[str, ...] = (),
         resume: bytes = b"",
         curve: CurveKeys | None = None,
+        bundle: str = "",
     ) -> None:
         self._connection = Connection(Role.CLIENT)
         self._waiting: deque[m.FromServer] = deque(maxlen=_KEPT)
@@ -60,7 +62,7 @@ class Client:
             curve.put_on(self._socket)
         try:
             connect(self._socket, address, DEFAULT_ADDRESS)
-            hello = m.Hello(version=m.PROTOCOL_VERSION, client=name, events=events, resume=resume)
+            hello = m.Hello(version=m.PROTOCOL_VERSION, client=name, events=events, resume=resume, bundle=bundle)
             self.welcome = self._greet(hello, timeout)
         except BaseException:
             self._socket.close(linger=0)

@@ -32,12 +32,14 @@ class Hello(Message, frozen=True):
         client: a name for the server's log.
         events: kinds of events to be told of beside those that answer a message, of ``EVENTS``.
         resume: token of a session whose connection broke, empty for a new session.
+        bundle: which of the server's bundles to play, empty for the first.
     """
 
     version: Version
     client: Name = ""
     events: Kinds = ()
     resume: Token = b""
+    bundle: Name = ""
 
 
 class Spawn(Message, frozen=True):

@@ -18,6 +18,7 @@ BEHAVIOUR = "behaviour"
 SPEED = "speed"
 LOCK_STEP = "lock_step"
 RESUME = "resume"
+BUNDLE = "bundle"
 
 CODES = {
     MALFORMED: "the bytes are no message of this protocol, or a field is out of bounds",
@@ -36,6 +37,7 @@ CODES = {
     SPEED: "the behaviour takes no speed; ``valid`` lists those that do",
     LOCK_STEP: "a step where the server has a clock of its own, or while the session's last one is not answered",
     RESUME: "no session waits for this token; the session is closed, say hello without it",
+    BUNDLE: "the server plays no bundle of this name; ``valid`` lists those it plays; the session is closed",
 }
 
 

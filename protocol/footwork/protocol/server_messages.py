@@ -52,6 +52,8 @@ class Welcome(Message, frozen=True):
         sequence: the highest that a message of the session had.
         spawned: numbers of the characters that the session has.
         speeds: the slowest and the fastest, m/s, that commands may ask of each behaviour that takes a speed.
+        bundle: the name of the bundle that the session plays.
+        bundles: the names of all that the server plays, the first being that of a hello which names none.
     """
 
     version: Version
@@ -77,6 +79,8 @@ class Welcome(Message, frozen=True):
     sequence: Counter = 0
     spawned: CharacterNumbers = ()
     speeds: SpeedRanges = field(default_factory=dict)
+    bundle: Name = ""
+    bundles: Names = ()
 
 
 class Pose(Message, frozen=True):

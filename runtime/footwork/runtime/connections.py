@@ -158,6 +158,13 @@ class Connections:
             if problem:
                 self._cut(connection, problem)
 
+    def forgive(self, nanoseconds: int) -> None:
+        """Hold nobody to what came in, or did not, while nothing was taken for so long."""
+        for connection in self._by_descriptor.values():
+            connection.began += nanoseconds
+            if connection.peer:
+                connection.received = None
+
     def _problem(self, connection: Connection, now: int) -> str:
         if connection.heard:
             connection.heard, connection.received = False, None

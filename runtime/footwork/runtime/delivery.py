@@ -25,6 +25,7 @@ class Backlog:
         dropped: of characters without a pose of this frame as yet, how many were dropped since the last one sent.
         stale_since: when it was first seen that the peer has no session, nanoseconds.
         closed: whether nothing may follow what waits.
+        outdated: whether the poses are not to be sent any more, only counted.
     """
 
     messages: deque[bytes] = field(default_factory=deque)
@@ -32,6 +33,7 @@ class Backlog:
     dropped: dict[int, int] = field(default_factory=dict)
     stale_since: int | None = None
     closed: bool = False
+    outdated: bool = False
 
 
 class Delivery:
@@ -83,7 +85,12 @@ class Delivery:
         for backlog in self._backlogs.values():
             self.dropped += len(backlog.poses)
             backlog.dropped = {number: pose.lost + 1 for number, pose in backlog.poses.items()}
-            backlog.poses = {}
+            backlog.poses, backlog.outdated = {}, False
+
+    def outdate(self, peer: bytes) -> None:
+        """Send none of the poses that wait for a peer; those of the next frame tell that they were dropped."""
+        if peer in self._backlogs:
+            self._backlogs[peer].outdated = True
 
     def show(self, peer: bytes, pose: Pose) -> Sent:
         """Send a pose, or keep it until there is room or another frame begins."""
@@ -107,6 +114,8 @@ class Delivery:
             if sent is not Sent.QUEUED:
                 return sent
             backlog.messages.popleft()
+        if backlog.outdated:
+            return Sent.DROPPED
         for number in list(backlog.poses):
             sent = self._send(peer, encode(backlog.poses[number]))
             if sent is not Sent.QUEUED:

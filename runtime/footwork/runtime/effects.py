@@ -18,14 +18,14 @@ class Effects:
 
     Args:
         simulation: the world that the characters live in.
-        limits: how many characters there may be.
-        make_room: called where the world is full, so that a character may leave it that nobody needs.
+        limits: how many characters a session may have.
+        find_room: whether there is room for another character, if need be in place of one that nobody needs.
     """
 
-    def __init__(self, simulation: Simulation, limits: Limits, make_room: Callable[[], object]) -> None:
+    def __init__(self, simulation: Simulation, limits: Limits, find_room: Callable[[], bool]) -> None:
         self._simulation = simulation
         self._limits = limits
-        self._make_room = make_room
+        self._find_room = find_room
         self._by_type: dict[type, Callable[[Session, Any], str | None]] = {
             m.Spawn: self._spawn,
             m.Command: self._command,
@@ -58,9 +58,7 @@ class Effects:
             raise PeerError(CHARACTER_TAKEN, f"character {number} is there already", sequence)
         if len(session.characters) >= most:
             raise PeerError(CHARACTERS, f"the session has its {most} characters already", sequence)
-        if self._simulation.full:
-            self._make_room()
-        if self._simulation.full:
+        if not self._find_room():
             raise PeerError(CHARACTERS, "the server has all the characters it takes", sequence)
         slot = self._simulation.spawn(message.x, message.z, message.yaw, message.behaviour)
         session.characters[number] = Character(slot, sequence)

@@ -1,5 +1,7 @@
 """What goes to and fro between the sessions of a host and the transport."""
 
+import logging
+
 from footwork.motion.tick import TICK_RATE
 from footwork.protocol.codec import encode
 from footwork.protocol.errors import MALFORMED, PeerError
@@ -9,9 +11,14 @@ from footwork.runtime.delivery import Delivery
 from footwork.runtime.host import Host
 from footwork.runtime.limits import Limits
 from footwork.runtime.router import Router, Sent
+from footwork.runtime.scene import Scene
+
+log = logging.getLogger(__name__)
 
 _RETRY_MS = 2
 """How often what the transport did not take is offered again."""
+_STALL = SECOND
+"""For how long nobody may listen before it counts as a stall, such as that of a process that was stopped."""
 _STRANGERS_WAIT = 10 * SECOND
 """For how long a last message is offered to a peer whose session is over."""
 
@@ -23,9 +30,13 @@ class Exchange:
         host: whose sessions they are.
         router: the transport.
         limits: how much may wait for a session that does not read.
+
+    Attributes:
+        pulse: when messages were last listened for, monotonic nanoseconds.
     """
 
     def __init__(self, host: Host, router: Router, limits: Limits) -> None:
+        self.pulse = now_ns()
         self._host = host
         self._router = router
         self._delivery = Delivery(router.send, host.sessions.__contains__, limits.waiting_messages)
@@ -42,11 +53,20 @@ class Exchange:
 
     def take(self, end: int) -> None:
         """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
+        self.beat()
         while now_ns() < end and (parts := self._router.receive()) is not None:
             if len(parts) == 2:
                 self._host.receive(parts[0], parts[1], now_ns())
             else:
                 self._host.refuse(parts[0], PeerError(MALFORMED, "more or fewer parts than the one expected"))
+
+    def beat(self) -> None:
+        """Note that somebody listens; after a stall no client is held to what it did, or did not do, meanwhile."""
+        missed, self.pulse = now_ns() - self.pulse, now_ns()
+        if missed > _STALL:
+            log.warning("nobody listened for %.1f s: was the process stopped?", missed / SECOND)
+            self._host.forgive(missed)
+            self._router.connections.forgive(missed)
 
     def say(self) -> None:
         """Hand over what the host has to say."""
@@ -76,6 +96,11 @@ class Exchange:
         self._router.look()
         for peer in self._router.gone():
             self._lose(peer)
+
+    def outdate(self, scene: Scene) -> None:
+        """Send no more of the poses that wait for the clients of a scene: they are of a bundle that goes."""
+        for session in self._host.playing(scene):
+            self._delivery.outdate(session.peer)
 
     def _end_slow(self, peer: bytes) -> None:
         """End a session that reads nothing; its bye takes the place of what waits for it."""

@@ -2,6 +2,7 @@
 
 import logging
 import math
+from collections.abc import Iterable
 
 import numpy as np
 import zmq
@@ -11,11 +12,11 @@ from footwork.errors import InputError
 from footwork.protocol.address import is_ipv6, port_fits
 from footwork.protocol.codec import encode
 from footwork.protocol.messages import TICK_RATE, Welcome
-from footwork.protocol.spectator import SCENE_TOPIC, pose_topic
 from footwork.runtime.connections import Connections
+from footwork.runtime.limits import Limits
 from footwork.runtime.pose_message import pose_message
-from footwork.runtime.router import is_local
-from footwork.runtime.simulation import Simulation
+from footwork.runtime.router import Router, is_local
+from footwork.runtime.scene import Scene
 
 log = logging.getLogger(__name__)
 
@@ -38,8 +39,7 @@ class Gallery:
 
     def __init__(self, socket: zmq.Socket, bind: str, *, queue: int, most: int) -> None:
         self._socket = socket
-        self._scene_due = 0
-        self._scene: Welcome | None = None
+        self._told: dict[bytes, tuple[Welcome, int]] = {}  # topic -> what was said there, and when to say it again
         options = {zmq.SNDHWM: queue, zmq.MAXMSGSIZE: _TOPIC_BYTES, zmq.IPV6: is_ipv6(bind), zmq.TCP_KEEPALIVE: 1}
         for option, value in options.items():
             socket.set(option, value)
@@ -72,24 +72,28 @@ class Gallery:
             except zmq.Again:
                 return
 
-    def show(self, simulation: Simulation, welcome: Welcome, frame: int) -> None:
-        """Publish a shown frame of the tick last made; what the scene is made of once a second, and when it changes.
+    def show(self, scenes: Iterable[Scene], frame: int) -> None:
+        """Publish a shown frame of the tick last made; what a scene is made of once a second, and when it changes.
 
         Args:
-            simulation: whose characters are shown; their slots are their public numbers.
-            welcome: what sessions are told of the scene.
+            scenes: whose characters are shown; their slots are their public numbers.
             frame: 1, 2 ... frame_rate / 30.
         """
         self.look()
-        if not len(self._connections):
-            return
+        if len(self._connections):
+            for scene in scenes:
+                self._show(scene, frame)
+
+    def _show(self, scene: Scene, frame: int) -> None:
+        simulation, welcome, topics = scene.simulation, scene.welcome, scene.topics
         tick = simulation.tick
-        if tick >= self._scene_due or welcome is not self._scene:
-            self._scene, self._scene_due = welcome, tick + TICK_RATE
-            self._publish(SCENE_TOPIC, encode(replace(welcome, tick=tick)))
+        told, due = self._told.get(topics.scene, (None, 0))
+        if tick >= due or welcome is not told:
+            self._told[topics.scene] = welcome, tick + TICK_RATE
+            self._publish(topics.scene, encode(replace(welcome, tick=tick)))
         shown = simulation.show(frame * TICK_RATE / welcome.frame_rate)
         for slot in np.flatnonzero(simulation.world.active).tolist():
-            self._publish(pose_topic(slot), encode(pose_message(shown, slot, tick=tick, frame=frame, number=slot)))
+            self._publish(topics.pose(slot), encode(pose_message(shown, slot, tick=tick, frame=frame, number=slot)))
 
     def _publish(self, topic: bytes, data: bytes) -> None:
         self._socket.send_multipart([topic, data], zmq.NOBLOCK)  # PUB sockets drop what a subscriber has no room for
@@ -98,3 +102,18 @@ class Gallery:
         """Close; what spectators have not got yet they miss."""
         self._connections.close()
         self._socket.close(linger=0)
+
+
+def open_gallery(router: Router, bind: str, limits: Limits) -> Gallery:
+    """Where those may watch who may connect to a router; where it cannot be, the router is closed too.
+
+    Raises:
+        InputError: for an address that cannot be bound.
+    """
+    socket = router.socket(zmq.XPUB)
+    try:
+        return Gallery(socket, bind, queue=2 * limits.characters, most=limits.connections)
+    except InputError:
+        socket.close(linger=0)
+        router.close()
+        raise

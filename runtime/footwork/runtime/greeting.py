@@ -1,5 +1,7 @@
 """What a client is told on arrival."""
 
+from typing import Any
+
 from msgspec.structs import replace
 
 from footwork.motion.bundle import Bundle
@@ -10,7 +12,13 @@ from footwork.runtime.session import Session
 
 
 def welcome_of(
-    bundle: Bundle, behaviours: tuple[str, ...], speeds: dict[str, tuple[float, float]], frame_rate: int, limits: Limits
+    bundle: Bundle,
+    behaviours: tuple[str, ...],
+    speeds: dict[str, tuple[float, float]],
+    frame_rate: int,
+    limits: Limits,
+    /,
+    **more: Any,
 ) -> m.Welcome:
     """The welcome of a server that plays ``bundle``, as far as it is the same for all sessions.
 
@@ -20,6 +28,7 @@ def welcome_of(
         speeds: the slowest and the fastest that they may ask of each behaviour that takes a speed, m/s.
         frame_rate: shown frames a second.
         limits: how much the client may ask for.
+        more: fields that are not the bundle's own.
 
     Raises:
         LocalError: for a bundle that the wire cannot hold, such as one with a name that is too long.
@@ -44,6 +53,7 @@ def welcome_of(
         message_bytes=CLIENT_MESSAGE_BYTES,
         messages_per_tick=limits.messages_per_tick,
         resume_seconds=limits.resume_seconds,
+        **more,
     )
     encode_checked(welcome)
     return welcome

@@ -1,22 +1,23 @@
-"""Sessions and one simulation: messages come in, messages go out; no socket, no clock.
+"""Sessions and their simulations, one a bundle: messages come in, messages go out; no socket, no clock.
 
 The server drives it by the clock, or by its clients' steps, and a ROUTER socket; tests drive it by hand.
 """
 
 import logging
-from collections.abc import Iterator
-
-from msgspec.structs import replace
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Any
 
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_client, encode
 from footwork.protocol.errors import LOCK_STEP, NO_SESSION, SESSIONS, VERSION, PeerError
-from footwork.runtime.effects import Effects
-from footwork.runtime.greeting import welcome_of, welcome_to
+from footwork.runtime.clock import SECOND
+from footwork.runtime.greeting import welcome_to
 from footwork.runtime.happenings import happenings
 from footwork.runtime.limits import Limits
 from footwork.runtime.pose_message import pose_message
 from footwork.runtime.roster import Roster
+from footwork.runtime.scene import Scene
+from footwork.runtime.scenes import Scenes
 from footwork.runtime.session import Sequenced, Session
 from footwork.runtime.simulation import PoseFrames, Simulation
 from footwork.runtime.succession import Succession
@@ -30,55 +31,68 @@ class Host:
     """All sessions of a server.
 
     Args:
-        simulation: the world that their characters live in.
+        simulations: the world that their characters live in, of each bundle by its name; or the only one. A hello
+            that names none plays the first.
         frame_rate: shown frames a second, a whole number of times the tick rate.
         limits: how much clients may ask for.
         lockstep: whether ticks are made when clients ask for them.
 
     Attributes:
+        scenes: what is played.
         sessions: those with a connection, by peer.
-        welcome: what all sessions are told on arrival.
 
     Raises:
         LocalError: for a bundle that the wire cannot hold.
     """
 
-    def __init__(self, simulation: Simulation, frame_rate: int, limits: Limits, *, lockstep: bool = False) -> None:
-        self.simulation = simulation
+    def __init__(
+        self,
+        simulations: Simulation | Mapping[str, Simulation],
+        frame_rate: int,
+        limits: Limits,
+        *,
+        lockstep: bool = False,
+    ) -> None:
         self.limits = limits
         self.lockstep = lockstep
-        self.sessions_begun = 0
         self.resumed = 0
         self.refused = 0
         self._frames = frame_rate // m.TICK_RATE
-        self.welcome = self.welcome_for(simulation)
+        self.scenes = Scenes(simulations, frame_rate, limits, lockstep=lockstep, make_room=self._make_room)
         self._roster = Roster(limits)
         self.sessions = self._roster.here
-        self._effects = Effects(simulation, limits, self._make_room)
         self._outbox: list[Outgoing] = []
         self._told: dict[bytes, int] = {}
 
-    def welcome_for(self, simulation: Simulation) -> m.Welcome:
-        """What sessions in a simulation are told on arrival.
-
-        Raises:
-            LocalError: for a bundle that the wire cannot hold.
-        """
-        frame_rate = self._frames * m.TICK_RATE
-        welcome = welcome_of(simulation.bundle, simulation.behaviours, simulation.speeds, frame_rate, self.limits)
-        return replace(welcome, lockstep=self.lockstep)
+    @property
+    def simulation(self) -> Simulation:
+        """That of the first bundle."""
+        return self.scenes.first.simulation
 
     def succeed(self, succession: Succession, welcome: m.Welcome) -> None:
-        """Go on in another simulation, between two ticks: all characters move over, clients are welcomed anew."""
-        latter = succession.latter
-        latter.tick = self.simulation.tick
+        """Go on in another simulation, between two ticks: its characters move over, its clients are welcomed anew."""
+        latter, scene = succession.latter, self.scenes.playing(succession.former)
         for session in self._roster.all:
-            for character in session.characters.values():
-                character.slot, character.behaviour = succession.move(character.slot), None
-        self.simulation, self.welcome = latter, welcome
-        self._effects = Effects(latter, self.limits, self._make_room)
-        for session in self.sessions.values():
+            if session.scene is scene:
+                for character in session.characters.values():
+                    character.slot, character.behaviour = succession.move(character.slot), None
+        self.scenes.put(scene, latter, welcome)
+        for session in self.playing(scene):
             self._send(session, welcome_to(session, welcome, latter.tick, resumed=True))
+
+    def figures(self, scene: Scene) -> dict[str, Any]:
+        """What is played in a scene, and by how many."""
+        return {
+            "digest": scene.simulation.bundle.digest,
+            "sessions": scene.sessions_begun,
+            "open_sessions": len(self.playing(scene)),
+            "characters": len(scene.simulation.world.slots),
+            "reloads": scene.reloads,
+        }
+
+    def playing(self, scene: Scene) -> list[Session]:
+        """Those here that play a bundle."""
+        return [session for session in list(self.sessions.values()) if session.scene is scene]
 
     def receive(self, peer: bytes, data: bytes, now: int) -> None:
         """Take what a peer sent at ``now``, monotonic nanoseconds; answers wait in the outbox."""
@@ -87,7 +101,7 @@ class Host:
             if session is None:
                 self._greet(peer, decode_from_client(data), now)
             else:
-                self._answer(session, session.receive(data, self.simulation.tick, now))
+                self._answer(session, session.receive(data, session.scene.simulation.tick, now))
         except PeerError as error:
             self.refuse(peer, error)
 
@@ -103,11 +117,12 @@ class Host:
             self._turn_away(peer, error)
 
     def _begin(self, peer: bytes, hello: m.Hello, now: int) -> None:
+        scene = self.scenes.chosen(hello.bundle)
         if self._roster.full and not self._make_room():
             raise PeerError(SESSIONS, f"the server has its {self.limits.sessions} sessions already")
-        session = self._roster.begin(peer, now)
+        session = self._roster.begin(peer, scene, now)
         self._welcome(session, hello, resumed=False)
-        self.sessions_begun += 1
+        scene.sessions_begun += 1
         log.info("session %s of %r begins", peer.hex(), hello.client)
 
     def _resume(self, peer: bytes, hello: m.Hello, now: int) -> None:
@@ -120,11 +135,12 @@ class Host:
 
     def _welcome(self, session: Session, hello: m.Hello, *, resumed: bool) -> None:
         session.greet(hello)
-        self._send(session, welcome_to(session, self.welcome, self.simulation.tick, resumed=resumed))
+        scene = session.scene
+        self._send(session, welcome_to(session, scene.welcome, scene.simulation.tick, resumed=resumed))
 
     def _answer(self, session: Session, message: m.FromClient | None) -> None:
         if isinstance(message, m.Ping):
-            self._send(session, m.Pong(nonce=message.nonce, tick=self.simulation.tick))
+            self._send(session, m.Pong(nonce=message.nonce, tick=session.scene.simulation.tick))
         elif isinstance(message, m.Step):
             self._ask(session, message.ticks)
         elif isinstance(message, m.Bye):
@@ -182,8 +198,14 @@ class Host:
         if session is None:
             return
         for character in session.characters.values():
-            self.simulation.stand(character.slot)
+            session.scene.simulation.stand(character.slot)
         log.info("session %s has lost its connection", peer.hex())
+
+    def forgive(self, nanoseconds: int) -> None:
+        """Count no time as anybody's silence in which nobody could be heard."""
+        self._roster.forgive(nanoseconds)
+        for session in self.sessions.values():
+            session.forgive(nanoseconds, nanoseconds * m.TICK_RATE // SECOND)
 
     def _make_room(self) -> bool:
         """Wait no more for whom was waited for longest; whether there was one."""
@@ -194,7 +216,7 @@ class Host:
 
     def _remove_characters(self, session: Session, reason: str) -> None:
         for character in session.characters.values():
-            self.simulation.remove(character.slot)
+            session.scene.simulation.remove(character.slot)
         log.info("session %s ends: %s", session.peer.hex(), reason)
 
     def count_anew(self) -> None:
@@ -204,47 +226,55 @@ class Host:
             session.count_anew()
 
     def tick(self) -> None:
-        """Let what is due take effect, then make one tick."""
+        """Let what is due take effect, then make one tick in every simulation."""
+        self._tick(self.scenes, self.sessions.values())
+
+    def _tick(self, scenes: Iterable[Scene], sessions: Collection[Session]) -> None:
         self._told.clear()
-        for session in self.sessions.values():
-            for message in session.due(self.simulation.tick + 1):
+        for session in sessions:
+            for message in session.due(session.scene.simulation.tick + 1):
                 self._apply(session, message)
-        self.simulation.step()
-        for session in self.sessions.values():
-            for event in happenings(session, self.simulation):
+        for scene in scenes:
+            scene.simulation.step()
+        for session in sessions:
+            for event in happenings(session, session.scene.simulation):
                 self._send(session, event)
 
     def _apply(self, session: Session, message: Sequenced) -> None:
         try:
-            event = self._effects.apply(session, message)
+            event = session.scene.effects.apply(session, message)
         except PeerError as error:
             self.refuse(session.peer, error)
         else:
             if event is not None:
                 self._send(session, event)
 
-    def step(self) -> bool:
-        """In lock-step: make a tick if all that have characters have asked for it; whether one was made.
+    def step(self) -> list[Scene]:
+        """In lock-step: make a tick of each bundle for which all that have characters in it have asked; those bundles.
 
         Whose last one it was gets its poses at the tick's own moment, and is told.
         """
-        asking = [session for session in self.sessions.values() if session.asked]
-        if not asking or any(session.characters and not session.asked for session in self.sessions.values()):
+        return [scene for scene in self.scenes if self._step(scene)]
+
+    def _step(self, scene: Scene) -> bool:
+        sessions = self.playing(scene)
+        asking = [session for session in sessions if session.asked]
+        if not asking or any(session.characters and not session.asked for session in sessions):
             return False
-        self.tick()
+        self._tick([scene], sessions)
         for session in asking:
             session.asked -= 1
         done = [session for session in asking if not session.asked]
         if done:
-            self._answer_steps(done)
+            self._answer_steps(scene.simulation, done)
         return True
 
-    def _answer_steps(self, sessions: list[Session]) -> None:
-        shown = self.simulation.show(1.0)
+    def _answer_steps(self, simulation: Simulation, sessions: list[Session]) -> None:
+        shown = simulation.show(1.0)
         for session in sessions:
             for pose in self._poses(session, shown, self._frames):
                 self._send(session, pose)
-            self._send(session, m.Stepped(tick=self.simulation.tick))
+            self._send(session, m.Stepped(tick=simulation.tick))
 
     def outgoing(self) -> list[Outgoing]:
         """Answers that waited, oldest first; they wait no more."""
@@ -253,13 +283,13 @@ class Host:
 
     def poses(self, frame: int) -> Iterator[tuple[bytes, m.Pose]]:
         """Peers and poses of all characters at shown frame ``frame`` = 1, 2 ... frame_rate / 30 of the tick."""
-        shown = self.simulation.show(frame / self._frames)
+        shown = {scene: scene.simulation.show(frame / self._frames) for scene in self.scenes}
         for session in list(self.sessions.values()):  # whoever sends these may find a session gone
-            for pose in self._poses(session, shown, frame):
+            for pose in self._poses(session, shown[session.scene], frame):
                 yield session.peer, pose
 
     def _poses(self, session: Session, shown: PoseFrames, frame: int) -> Iterator[m.Pose]:
-        tick = self.simulation.tick
+        tick = session.scene.simulation.tick
         for number, who in session.characters.items():
             yield pose_message(shown, who.slot, tick=tick, frame=frame, number=number, acknowledged=who.acknowledged)
 

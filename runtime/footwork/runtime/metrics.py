@@ -14,7 +14,6 @@ _COUNTED = {
     "ticks": "ticks made",
     "late_ticks": "ticks whose first poses left more than a frame after their deadline",
     "skipped_frames": "frames given up after a stall",
-    "sessions": "sessions begun",
     "resumed": "sessions resumed after their connection broke",
     "refused": "messages refused",
     "dropped": "poses dropped for clients that read too slowly",
@@ -22,11 +21,14 @@ _COUNTED = {
     "denied": "clients turned away for their key",
     "bytes_in": "bytes of messages from clients",
     "bytes_out": "bytes of messages to clients",
+}
+# the same of each bundle, under its name; all are in Server.by_bundle()
+_COUNTED_OF_BUNDLES = {
+    "sessions": "sessions begun",
     "reloads": "bundles put in place of others",
 }
-_PRESENT = {
+_PRESENT_OF_BUNDLES = {
     "open_sessions": "sessions with a connection",
-    "connections": "connections, with and without a session",
     "characters": "characters in the world",
 }
 
@@ -57,10 +59,18 @@ class _Counters:
         from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily
 
         counted, present = self._server.summary(), self._server.population()
+        yield GaugeMetricFamily(
+            "footwork_connections", "connections, with and without a session", value=present["connections"]
+        )
         for name, said in _COUNTED.items():
             yield CounterMetricFamily(f"footwork_{name}", said, value=counted[name])
-        for name, said in _PRESENT.items():
-            yield GaugeMetricFamily(f"footwork_{name}", said, value=present[name])
+        by_bundle = self._server.by_bundle()
+        for kind, names in ((CounterMetricFamily, _COUNTED_OF_BUNDLES), (GaugeMetricFamily, _PRESENT_OF_BUNDLES)):
+            for name, said in names.items():
+                family = kind(f"footwork_{name}", said, labels=["bundle"])
+                for bundle, figures in by_bundle.items():
+                    family.add_metric([bundle], figures[name])
+                yield family
         seconds = self._server.tick_seconds
         buckets = [("+Inf" if bound == float("inf") else str(bound), count) for bound, count in seconds.up_to()]
         yield HistogramMetricFamily(

@@ -40,10 +40,11 @@ def state_digest(slots: bytes, rows: bytes) -> bytes:
     return hashlib.blake2b(rows, digest_size=16, key=hashlib.blake2b(slots).digest()).digest()
 
 
-def new_recording(folder: str | Path) -> Path:
-    """A name for a recording that starts now, not yet taken in this folder."""
+def new_recording(folder: str | Path, bundle: str = "") -> Path:
+    """A name for a recording that starts now, of one of several bundles if named, not yet taken in this folder."""
     stem = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
-    names = (f"{stem}-{os.getpid()}{again}{SUFFIX}" for again in ("", *(f"-{n}" for n in range(1, 1000))))
+    whose = f"{stem}-{os.getpid()}-{bundle}".rstrip("-")
+    names = (f"{whose}{again}{SUFFIX}" for again in ("", *(f"-{n}" for n in range(1, 1000))))
     for path in (Path(folder, name) for name in names):
         if not path.exists():
             return path
@@ -107,6 +108,11 @@ class Recorder:
     def wait(self) -> None:
         """Wait until a recording that was ended is on the disk."""
         self._thread.join()
+
+    @property
+    def written(self) -> bool:
+        """Whether its thread has nothing more to write."""
+        return not self._thread.is_alive()
 
     @property
     def recording(self) -> bool:

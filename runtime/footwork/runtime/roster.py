@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 from footwork.protocol.errors import RESUME, PeerError
 from footwork.runtime.limits import Limits
+from footwork.runtime.scene import Scene
 from footwork.runtime.session import Session
 
 
@@ -33,9 +34,9 @@ class Roster:
         """Those that are here and those that wait."""
         return self._by_token.values()
 
-    def begin(self, peer: bytes, now: int) -> Session:
+    def begin(self, peer: bytes, scene: Scene, now: int) -> Session:
         """A new session of a peer, where there is room."""
-        session = self.here[peer] = Session(peer, self._limits, now)
+        session = self.here[peer] = Session(peer, scene, self._limits, now)
         self._by_token[session.token] = session
         return session
 
@@ -77,6 +78,11 @@ class Roster:
     def give_up_oldest(self) -> Session | None:
         """Take out the one that has waited for longest, if any waits."""
         return self._give_up(next(iter(self._away))) if self._away else None
+
+    def forgive(self, nanoseconds: int) -> None:
+        """Wait longer for those that are away."""
+        for token in self._away:
+            self._away[token] += nanoseconds
 
     def _give_up(self, token: bytes) -> Session:
         del self._away[token]

@@ -5,24 +5,21 @@ tick and sends the poses; a command that came in before a deadline is acknowledg
 lock-step there are no deadlines: it only listens, and makes a tick as soon as its clients have asked for it.
 """
 
-import logging
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-import zmq
-
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
-from footwork.protocol.messages import Welcome
 from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.collector import collect_young, held_collector
 from footwork.runtime.exchange import Exchange
-from footwork.runtime.gallery import Gallery
+from footwork.runtime.gallery import open_gallery
+from footwork.runtime.handover import Handover
 from footwork.runtime.histogram import Histogram
 from footwork.runtime.host import Host
 from footwork.runtime.key_folder import KeyFolder
@@ -30,10 +27,10 @@ from footwork.runtime.limits import Limits
 from footwork.runtime.recordings import Recordings
 from footwork.runtime.ring import Ring
 from footwork.runtime.router import DEFAULT_BIND, Router
+from footwork.runtime.scene import Scene
+from footwork.runtime.scenes import ONLY, Scenes, require_names
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.succession import Succession
-
-log = logging.getLogger(__name__)
 
 RATES = (30, 60, 120)
 _MILLISECOND = 1_000_000
@@ -45,15 +42,15 @@ _LOCK_STEP_TIDY = 1000
 
 
 class Server:
-    """Serves a bundle on a ROUTER socket.
+    """Serves a bundle, or several, on a ROUTER socket.
 
     A tick is late if its first poses leave more than one frame period after its deadline.
 
     Args:
-        bundle: what characters are made of.
+        bundle: what characters are made of; of several each under its name, the first for clients that name none.
         bind: where to listen; port 0 or ``*`` takes any free one, told by ``address``.
         rate: shown frames a second, 30, 60 or 120; at 30n the new tick is shown at 1/n, 2/n ... 1.
-        limits: how much clients may ask for.
+        limits: how much clients may ask for, of all bundles together.
         inertialise: whether transitions are smoothed.
         lockstep: make no tick by a clock, but each once all clients with characters have asked for it.
         spectate: where spectators may watch all characters, nowhere unless given; told by ``gallery_address``.
@@ -61,14 +58,14 @@ class Server:
         record: a folder that what takes effect is recorded in, nowhere unless given.
 
     Raises:
-        InputError: for another rate, an address that cannot be bound, a folder that cannot be written to or a bundle
-            without a steering table.
+        InputError: for another rate, a name that is none, an address that cannot be bound, a folder that cannot be
+            written to or a bundle without a steering table.
         LocalError: for a bundle that the wire cannot hold.
     """
 
     def __init__(
         self,
-        bundle: Bundle,
+        bundle: Bundle | Mapping[str, Bundle],
         *,
         bind: str = DEFAULT_BIND,
         rate: int = 60,
@@ -83,25 +80,28 @@ class Server:
             raise InputError(f"{rate} frames a second, expected one of {RATES}", "rate")
         limits = limits or Limits()
         self.rate = rate
-        self.ticks = self.late_ticks = self.reloads = 0
+        bundles = bundle if isinstance(bundle, Mapping) else {ONLY: bundle}
+        require_names(bundles)
+        self.ticks = self.late_ticks = 0
         self.tick_us = Ring()
         self.lateness_us = Ring()
         self.tick_seconds = Histogram()
-        self.pulse = now_ns()
         self.simulate = partial(Simulation, capacity=limits.characters, inertialise=inertialise)
-        self._host = Host(self.simulate(bundle), rate, limits, lockstep=lockstep)
+        simulations = {name: self.simulate(each) for name, each in bundles.items()}
+        self._host = Host(simulations, rate, limits, lockstep=lockstep)
         self._recordings = Recordings(record, rate)
         # Half a second of one character's poses, but no fewer than two frames of all that a session may have.
         queue = max(rate // 2, 2 * limits.session_characters)
         self._router = Router(bind, keys=keys, most=limits.connections, send_queue=queue)
-        self._gallery = None if spectate is None else self._open_gallery(spectate, limits)
+        self._gallery = None if spectate is None else open_gallery(self._router, spectate, limits)
         self._exchange = Exchange(self._host, self._router, limits)
         self._clock = FrameClock(rate, now_ns())
         self._stopping = False
-        self._succession: tuple[Succession, Welcome] | None = None
+        self._handover = Handover(self._host, self._exchange, self._recordings)
         self._ended = threading.Event()
         try:
-            self._recordings.begin(self.simulation)
+            for scene in self.scenes:
+                self._recordings.begin(scene.name, scene.simulation)
         except InputError:
             self.close()
             raise
@@ -112,33 +112,37 @@ class Server:
         return self._router.address
 
     @property
-    def simulation(self) -> Simulation:
+    def scenes(self) -> Scenes:
         """What is being served."""
+        return self._host.scenes
+
+    @property
+    def simulation(self) -> Simulation:
+        """That of the first bundle."""
         return self._host.simulation
 
+    @property
+    def pulse(self) -> int:
+        """When its loop last went round, monotonic nanoseconds."""
+        return self._exchange.pulse
+
+    @property
+    def reloads(self) -> int:
+        """How many bundles took another's place."""
+        return self._handover.count
+
     def succeed(self, succession: Succession) -> None:
-        """Let another bundle take over between two ticks, and wait until it has; for another thread than ``run``'s.
+        """Let a bundle take another's place between two ticks; on another thread than ``run``'s, it waits.
 
         Raises:
             LocalError: for a bundle that the wire cannot hold; the old one goes on.
         """
-        self._succession = (succession, self._host.welcome_for(succession.latter))
-        while self._succession is not None and not self._ended.wait(0.01):
-            pass
+        self._handover.ask(succession, self._ended)
 
     @property
     def gallery_address(self) -> str | None:
         """Where spectators may watch, if anywhere."""
         return None if self._gallery is None else self._gallery.address
-
-    def _open_gallery(self, bind: str, limits: Limits) -> Gallery:
-        socket = self._router.socket(zmq.XPUB)
-        try:
-            return Gallery(socket, bind, queue=2 * limits.characters, most=limits.connections)
-        except InputError:
-            socket.close(linger=0)
-            self._router.close()
-            raise
 
     def run(self, until: Callable[[], bool] | None = None) -> None:
         """Serve until ``stop`` is called or ``until()``, asked before every frame, is true; then say bye and close.
@@ -146,6 +150,7 @@ class Server:
         It can be run once.
         """
         try:
+            self._exchange.pulse = now_ns()
             with held_collector():
                 self._step_in_lock(until) if self._host.lockstep else self._loop(until)
         finally:
@@ -158,7 +163,8 @@ class Server:
         if self._gallery is not None:
             self._gallery.close()
         self._router.close(linger=_FAREWELL)
-        self.simulation.end_recording()
+        for scene in self.scenes:
+            scene.simulation.end_recording()
         self._recordings.wait()
         self._ended.set()
 
@@ -176,7 +182,7 @@ class Server:
             "ticks": self.ticks,
             "late_ticks": self.late_ticks,
             "tick_us": {"p50": self.tick_us.percentile(50), "p99": self.tick_us.percentile(99)},
-            "sessions": self._host.sessions_begun,
+            "sessions": sum(scene.sessions_begun for scene in self.scenes),
             "resumed": self._host.resumed,
             "refused": self._host.refused,
             "dropped": self._exchange.dropped,
@@ -184,18 +190,23 @@ class Server:
             "denied": self._router.denied,
             "skipped_frames": self._clock.skipped,
             "reloads": self.reloads,
-            "recordings": self._recordings.names,
+            "bundles": self.by_bundle(),
+            "recordings": list(self._recordings.names),
             "recording_errors": self._recordings.errors,
             "bytes_in": self._router.bytes_in,
             "bytes_out": self._router.bytes_out,
         }
+
+    def by_bundle(self) -> dict[str, dict[str, Any]]:
+        """What is played under each name, and by how many."""
+        return {scene.name: self._host.figures(scene) for scene in self.scenes}
 
     def population(self) -> dict[str, int]:
         """How many there are of each just now."""
         return {
             "open_sessions": len(self._host.sessions),
             "connections": len(self._router.connections),
-            "characters": len(self.simulation.world.slots),
+            "characters": self.scenes.character_count,
         }
 
     def _loop(self, until: Callable[[], bool] | None) -> None:
@@ -205,7 +216,6 @@ class Server:
         frame = 1
         while not (self._stopping or (until is not None and until())):
             self._listen(self._clock.deadline)
-            self.pulse = now_ns()
             work += self._show(frame)
             if frame == frames:
                 self._note(work)
@@ -235,7 +245,7 @@ class Server:
         self._exchange.say()
         self._exchange.show(frame)
         self._exchange.retry()
-        self._let_watch(frame)
+        self._let_watch(self.scenes, frame)
         done = now_ns()
         if frame == 1:
             self.ticks += 1
@@ -251,13 +261,14 @@ class Server:
             self._make_steps()
             self._exchange.retry()
             if now_ns() - renewed > SECOND // TICK_RATE:
-                renewed = self.pulse = now_ns()
+                renewed = now_ns()
+                self._exchange.beat()
                 self._host.count_anew()
                 self._host.end_overdue(renewed)
                 self._exchange.look_around()
                 if self._gallery is not None:
                     self._gallery.look()
-                self._hand_over()
+                self._handover.make()
 
     def _note(self, nanoseconds: int) -> None:
         """Note how long a tick and its poses took."""
@@ -267,34 +278,22 @@ class Server:
     def _make_steps(self) -> None:
         self._exchange.say()
         start = now_ns()
-        while not self._stopping and self._host.step():
+        while not self._stopping and (stepped := self._host.step()):
             self._exchange.say()
-            self._let_watch(self.rate // TICK_RATE)
+            self._let_watch(stepped, self.rate // TICK_RATE)
             done = now_ns()
             self._note(done - start)
-            self.ticks += 1
+            self.ticks += len(stepped)
             if self.ticks % _LOCK_STEP_TIDY == 0:
                 collect_young()
             start = now_ns()
 
-    def _let_watch(self, frame: int) -> None:
+    def _let_watch(self, scenes: Iterable[Scene], frame: int) -> None:
         if self._gallery is not None:
-            self._gallery.show(self._host.simulation, self._host.welcome, frame)
-
-    def _hand_over(self) -> None:
-        """Let the bundle that waits to be served take over."""
-        if self._succession is not None:
-            former, latter = self.simulation, self._succession[0].latter
-            latter.tick = former.tick
-            self._recordings.go_on(latter)
-            self._host.succeed(*self._succession)
-            former.end_recording()
-            self._succession = None
-            self.reloads += 1
-            log.info("bundle %s is served from now on", self.simulation.bundle.digest[:12])
+            self._gallery.show(scenes, frame)
 
     def _tidy(self) -> None:
         self._exchange.look_around()
-        self._hand_over()
+        self._handover.make()
         if self.ticks % TICK_RATE == 0:
             collect_young()

@@ -3,6 +3,7 @@
 import secrets
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from footwork.protocol import messages as m
 from footwork.protocol.codec import encode
@@ -10,8 +11,13 @@ from footwork.protocol.connection import Connection, Role
 from footwork.protocol.errors import RATE, STALE, TICK, PeerError
 from footwork.runtime.limits import Limits
 
+if TYPE_CHECKING:  # a scene's effects know sessions
+    from footwork.runtime.scene import Scene
+
 Sequenced = m.Spawn | m.Command | m.Correct | m.Teleport | m.Despawn
 TOKEN_BYTES = 16
+MOST_AFTER_A_STALL = 1024
+"""Messages that may come in at once beyond a tick's, once the server listens again."""
 
 
 @dataclass
@@ -38,6 +44,7 @@ class Session:
 
     Args:
         peer: the transport's name for the client.
+        scene: the bundle that it plays.
         limits: how much it may ask for.
         now: monotonic nanoseconds.
 
@@ -48,8 +55,9 @@ class Session:
         asked: in lock-step, how many ticks it waits for.
     """
 
-    def __init__(self, peer: bytes, limits: Limits, now: int) -> None:
+    def __init__(self, peer: bytes, scene: "Scene", limits: Limits, now: int) -> None:
         self.peer = peer
+        self.scene = scene
         self.token = secrets.token_bytes(TOKEN_BYTES)
         self.characters: dict[int, Character] = {}
         self.sequence = 0
@@ -62,7 +70,7 @@ class Session:
         self.heard = now
         self.asked = 0
         self._inbox: dict[int, list[Sequenced]] = {}
-        self._taken = 0
+        self._taken = self._more = 0
 
     def greet(self, hello: m.Hello) -> None:
         """Take the hello of a new connection."""
@@ -86,7 +94,7 @@ class Session:
             PeerError: for a message that is dropped. ``rate`` is judged before the bytes are read.
         """
         self._taken += 1
-        if self._taken > self._limits.messages_per_tick:
+        if self._taken > self._limits.messages_per_tick and not self._one_more():
             raise PeerError(RATE, f"more than {self._limits.messages_per_tick} messages within a tick")
         message = self.connection.receive(data)
         self.heard = now
@@ -115,6 +123,17 @@ class Session:
     def count_anew(self) -> None:
         """Begin to count the messages of another tick."""
         self._taken = 0
+
+    def _one_more(self) -> bool:
+        """Use up one of the messages that came while nobody listened."""
+        left = self._more > 0
+        self._more -= left
+        return left
+
+    def forgive(self, nanoseconds: int, ticks: int) -> None:
+        """Count neither as silence nor within a tick what passed while the server listened to nobody."""
+        self.heard += nanoseconds
+        self._more = min(ticks * self._limits.messages_per_tick, MOST_AFTER_A_STALL)
 
     def idle(self, now: int) -> bool:
         """Whether the client has been silent for too long."""
