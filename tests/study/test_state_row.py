@@ -28,7 +28,7 @@ def motions(tmp_path) -> MotionSets:
 
 
 def test_the_row_is_there():
-    assert [row.name for row in registry.chosen_rows(["A"])] == ["A-T1"]
+    assert [row.name for row in registry.chosen_rows(["A"])] == ["A-T1", "A-R", "A-C"]
 
 
 def test_without_fighting_it_cannot_be_judged(motions):
