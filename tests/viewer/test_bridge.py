@@ -13,6 +13,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from footwork.errors import InputError
 from footwork.protocol import messages as m
 from footwork.protocol.codec import encode
+from footwork.protocol.curve import CurveKeys, KeyPair, read_public
+from footwork.runtime.key_folder import KeyFolder
 from footwork.runtime.server import Server
 from footwork.viewer.bridge import Bridge, Shown
 from footwork.viewer.page_files import PageFile
@@ -217,6 +219,19 @@ def test_a_server_that_was_lost_is_found_again():
 
     with serving() as server:
         asyncio.run(run())
+
+
+def test_it_speaks_to_a_server_that_asks_for_keys(tmp_path):
+    folder, pair = KeyFolder.create(tmp_path / "keys"), KeyPair.new()
+    folder.allow("bridge", pair.public)
+
+    async def test(address: str) -> None:
+        keys = CurveKeys(pair, read_public(folder.public_file))
+        async with Bridge([Shown("toy", address)], FILES, curve=keys) as bridge, page_of(bridge) as page:
+            await begin(page)
+
+    with serving(keys=folder) as server:
+        asyncio.run(test(server.address))
 
 
 @pytest.mark.parametrize("listen", ["127.0.0.1", "127.0.0.1:x", ":80", "127.0.0.1:99999"])

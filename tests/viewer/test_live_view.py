@@ -200,6 +200,20 @@ def test_keys_are_recorded_as_a_trace_and_replayed(page, tmp_path):
     wait_until(page, "document.getElementById('error').textContent.includes('no column strafe')")
 
 
+def test_the_view_is_dragged_and_a_gamepad_travels_where_one_looks(page):
+    wait_until(page, "footwork.figure.speed < 0.1")
+    page.mouse.move(300, 150)
+    page.mouse.down()
+    page.mouse.move(200, 150, steps=4)  # 100 pixels to the left: the view turns left
+    page.mouse.up()
+    assert page.evaluate("footwork.camera.yaw") == pytest.approx(0.5, abs=0.02)
+    pad = "{connected: true, axes: [0, -1, 0, 0], buttons: Array(10).fill({pressed: false})}"
+    page.evaluate(f"navigator.getGamepads = () => [{pad}]; 0")
+    wait_until(page, "footwork.figure.speed > 0.5 && Math.abs(footwork.figure.facing - 0.5) < 0.3")
+    page.evaluate("navigator.getGamepads = () => []; footwork.camera.turn(-0.5, 0)")
+    wait_until(page, "footwork.figure.speed < 0.1")
+
+
 def test_a_page_of_another_origin_is_refused(browser, address):
     elsewhere = http.server.ThreadingHTTPServer(("127.0.0.1", 0), partial(_Elsewhere))
     threading.Thread(target=elsewhere.serve_forever, daemon=True).start()

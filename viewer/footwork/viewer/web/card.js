@@ -20,9 +20,7 @@ export class Card {
     this.feet = { left: element("span", "foot", feet), right: element("span", "foot", feet) };
     for (const [side, foot] of Object.entries(this.feet)) foot.textContent = side;
     this.health = element("meter", "", this.root);
-    this.health.title = "health";
     this.strip = element("canvas", "", this.root);
-    this.strip.title = "The last ten seconds: behaviours, and strokes at transitions";
     this.jumped = -Infinity;
   }
 
