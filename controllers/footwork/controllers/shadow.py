@@ -93,7 +93,7 @@ def _as_far(x, z, further):
 
 @numba.njit(cache=True, nogil=True)
 def shadowing_error(style, mine, theirs):
-    """The weighted error of distance and facing (Zordan and others 2007; weights are conventions.md 13)."""
+    """The weighted error of distance and facing (Chiu, Zordan and Wu 2007; weights are conventions.md 13)."""
     x, z = seen(mine, theirs[0], theirs[1])
     apart = abs(math.hypot(x, z) - style.distance) / style.distance_scale
     return apart + abs(math.atan2(x, z)) / style.facing_scale

@@ -1,8 +1,8 @@
 """What a state-annotated motion graph knows beyond its frames: states, segments, and the quickest ways between them.
 
-After Zordan and others' state-annotated motion graphs (2007). A segment is a stretch of a clip without a branch:
-whoever enters its first node goes on to its last, and only there chooses. The ways lead from every segment of a state
-to every segment of another in the least time, over segments of these two states only.
+After Chiu, Zordan and Wu (2007). A segment is a stretch of a clip without a branch: whoever enters its first node goes
+on to its last, and only there chooses. The ways lead from every segment of a state to every segment of another in the
+least time, over segments of these two states only.
 """
 
 from collections.abc import Iterator

@@ -13,7 +13,7 @@ class ShadowingTask:
     """The cost of a tick and the axes of the values.
 
     A tick that ends with the opponent at distance d and bearing phi, its direction less one's own facing, costs
-    |d - distance| / distance_scale + |phi| / facing_scale (after Zordan and others 2007; figures are conventions.md
+    |d - distance| / distance_scale + |phi| / facing_scale (after Chiu, Zordan and Wu 2007; figures are conventions.md
     11). The opponent is expected to stand where it is.
 
     Args:

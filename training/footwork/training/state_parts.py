@@ -1,6 +1,6 @@
 """What of a graph is left once a state machine allows: from everywhere every state, and within states everywhere.
 
-After Zordan and others (2007): transitions that the machine forbids go, then all but the largest strongly connected
+After Chiu, Zordan and Wu (2007): transitions that the machine forbids go, then all but the largest strongly connected
 part, then for each state with transitions within it all but the largest strongly connected part of its own. The last
 step may break what the one before made, so both are repeated until nothing changes (conventions.md 11).
 

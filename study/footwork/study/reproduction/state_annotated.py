@@ -3,7 +3,7 @@
 from footwork.motion.state_machine import State, StateMachine
 from footwork.study.reproduction.row import Paper
 
-PAPER = Paper("A", "V. B. Zordan and others", 2007, "State-annotated motion graphs")
+PAPER = Paper("A", "B. Chiu, V. B. Zordan and C.-C. Wu", 2007, "State-annotated motion graphs")
 MOVING = "locomotion"
 MACHINE = StateMachine(
     (
