@@ -9,6 +9,7 @@ from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places
+from footwork.motion.shadowing_task import ShadowingTask
 from footwork.motion.state_machine import State, StateMachine
 from footwork.motion.task import SteeringTask
 from footwork.study.graph_clips import clip_of_graph, clips_of_graph
@@ -16,6 +17,7 @@ from footwork.study.inspection import inspect_bundle, inspect_clips
 from footwork.study.responsiveness import PATIENCE, change_times, turn_times
 from footwork.study.steered_clip import steered_clip
 from footwork.training.annotated_recipe import annotated
+from footwork.training.shadowing import solve_shadowing
 from footwork.training.value_iteration import solve
 from motion_samples import ring_graph, sample_clips
 from toy_bundle import FRAMES, SHOWN, toy_bundle
@@ -41,7 +43,10 @@ def test_ways_on_a_ring_are_known():
     graph = ring_graph(12)
     walking = StateMachine((State("on", ("walk",), ("on",), ("on",)),))
     notes = annotated(graph, walking, np.zeros(12, dtype=np.int16))
-    report = inspect_bundle(Bundle(graph, {}, annotation=notes))
+    table = solve_shadowing(graph, notes, 0, ShadowingTask(distance_bins=2, bearing_bins=4))
+    report = inspect_bundle(Bundle(graph, {}, annotation=notes, shadowing=table))
+    assert report["shadowing"]["states"] == 8
+    assert report["bytes"]["table shadowing"] == 8 * 4
     assert report["states"] == [{"state": "on", "segments": 1, "nodes": 12, "mean_segment_s": pytest.approx(0.4)}]
     assert [(pair["pairs"], pair["mean_s"]) for pair in report["at_once"]] == [(1, 0.0)]
     connectivity, times = report["connectivity"], report["transition_time"]

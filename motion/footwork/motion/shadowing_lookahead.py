@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.hops import Hops
 from footwork.motion.lookahead import bins_around
+from footwork.motion.planar import seen
 from footwork.motion.shadowing_task import ShadowingTask
 
 
@@ -27,14 +28,6 @@ class ShadowingRules(NamedTuple):
 def rules_of_shadowing(task: ShadowingTask) -> ShadowingRules:
     """The scalars of a task."""
     return ShadowingRules(task.distance, task.distance_scale, task.facing_scale, task.discount, task.farthest)
-
-
-@numba.njit(cache=True, nogil=True)
-def seen_from(x: float, z: float, place: NDArray) -> tuple[float, float]:
-    """A point of a planar frame as it is seen from a place (x, z, yaw) in that frame."""
-    cosine, sine = math.cos(place[2]), math.sin(place[2])
-    dx, dz = x - place[0], z - place[1]
-    return dx * cosine - dz * sine, dx * sine + dz * cosine
 
 
 @numba.njit(cache=True, nogil=True)
@@ -79,10 +72,10 @@ def along_hop(
         x: where the opponent is seen at the end of the segment before it, metres.
         z: likewise.
     """
-    x, z = seen_from(x, z, step)
+    x, z = seen(step, x, z)
     cost, worth, x_then, z_then = 0.0, 1.0, x, z
     for at in range(begin, end):
-        x_then, z_then = seen_from(x, z, tick[at])
+        x_then, z_then = seen(tick[at], x, z)
         cost += worth * shadowing_cost(rules, x_then, z_then)
         worth *= rules.discount
     return cost, x_then, z_then, worth

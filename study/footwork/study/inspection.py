@@ -10,6 +10,7 @@ from footwork.controllers.bundle_controller import bundle_controller
 from footwork.motion.bundle import Bundle
 from footwork.motion.clip import Clip
 from footwork.motion.graph import ARRAYS
+from footwork.motion.shadowing_table import ShadowingTable
 from footwork.motion.table import PolicyTable
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_clip
 from footwork.study.graph_report import graph_report
@@ -26,11 +27,12 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
     frames are ``transition_time``; those to and between kinds of motion are given for labels and for behaviours
     (``graph_report``). ``tour`` is a best path through all labels. ``responsiveness`` is that of the "steering" table,
     with ``speeds`` where some can be asked for (``speed_response``), None without one. A state-annotated graph has
-    ``segments``, ``states`` and ``at_once`` too (``state_report``).
+    ``segments``, ``states`` and ``at_once`` too (``state_report``), and ``shadowing`` where one of its states is.
     """
     graph = bundle.graph
     sizes = {"graph": sum(getattr(graph, name).nbytes for name in ARRAYS)}
     sizes |= {f"table {name}": table.coded.nbytes for name, table in bundle.tables.items()}
+    sizes |= {} if bundle.shadowing is None else {"table shadowing": bundle.shadowing.nbytes}
     steering = bundle.tables.get("steering")
     return {
         "digest": bundle.digest,
@@ -48,6 +50,7 @@ def inspect_bundle(bundle: Bundle) -> dict[str, Any]:
         "source_foot_slide_cm_s": slide_of_capture(graph).cm_per_second,
         "responsiveness": _responsiveness(bundle, steering) if steering else None,
         "tables": {name: _table(table) for name, table in bundle.tables.items()},
+        **({} if bundle.shadowing is None else {"shadowing": _shadowing(bundle.shadowing)}),
         "attribution": list(bundle.attribution),
         "provenance": dict(bundle.provenance),
     }
@@ -111,4 +114,21 @@ def _table(table: PolicyTable) -> dict[str, Any]:
         "residual": table.residual,
         "converged": table.converged,
         "greatest_value": float(table.values.max()),
+    }
+
+
+def _shadowing(table: ShadowingTable) -> dict[str, Any]:
+    task = table.task
+    return {
+        "states": int(table.values.size),
+        "distance_m": task.distance,
+        "distance_scale_m": task.distance_scale,
+        "facing_scale_deg": float(np.degrees(task.facing_scale)),
+        "discount": task.discount,
+        "farthest_m": task.farthest,
+        "distance_bins": task.distance_bins,
+        "bearing_bins": task.bearing_bins,
+        "sweeps": table.sweeps,
+        "residual": table.residual,
+        "converged": table.converged,
     }
