@@ -52,4 +52,4 @@ def best_attack(world: FightMap, fighters: NDArray, styles: NDArray, who: int, p
             distance += style.variety * draw(fighter)
         if distance < least:
             least, best = distance, column
-    return least, -1 if best < 0 else world.attack_goals[best]
+    return least, world.attack_goals[best] if best >= 0 else -1

@@ -1,7 +1,8 @@
 """The fight map: all that look-ahead needs to know of a state-annotated graph, computed once.
 
 Where a fighter stands at the contact of a strike or the end of an evasion is a look-up and one planar transform then.
-Tables are arrays of records, which compiled code takes as one argument each. A place or a transform is x, z and yaw.
+Tables are arrays of records, which compiled code takes as one argument each; all whole numbers in them are of one width
+and so are all others, for every mix of widths would be compiled anew. A place or a transform is x, z and yaw.
 """
 
 from typing import Any, NamedTuple
@@ -31,13 +32,13 @@ SHORTEST_EVADE = 9
 
 NODES = np.dtype(
     [
-        ("segment", "i4"),
+        ("segment", "i8"),
         ("ends", "?"),  # whether it is the last of its segment
-        ("edge_start", "i4"),  # its edges
-        ("edge_end", "i4"),
-        ("limb", "i4"),  # which strikes there, NONE for none
+        ("edge_start", "i8"),  # its edges
+        ("edge_end", "i8"),
+        ("limb", "i8"),  # which strikes there, NONE for none
         ("speed", "f8"),  # of that limb, m/s
-        ("to_contact", "i4"),  # ticks to the next strike of its action, NONE for none
+        ("to_contact", "i8"),  # ticks to the next strike of its action, NONE for none
         ("x", "f8"),  # its place in its stretch of capture
         ("z", "f8"),
         ("yaw", "f8"),
@@ -46,35 +47,35 @@ NODES = np.dtype(
     ],
     align=True,
 )
-EDGES = np.dtype([("target", "i4"), ("natural", "?"), ("x", "f8"), ("z", "f8"), ("yaw", "f8")], align=True)
+EDGES = np.dtype([("target", "i8"), ("natural", "?"), ("x", "f8"), ("z", "f8"), ("yaw", "f8")], align=True)
 SEGMENTS = np.dtype(
     [
-        ("first", "i4"),
-        ("last", "i4"),
-        ("state", "i4"),  # 0 for that in which fighters shadow
-        ("onward", "i4"),  # the edge of those who choose none at its end
-        ("action_end", "i4"),  # the last node of the action that begins with it
-        ("contact", "i4"),  # the first strike of that action, NONE for none
-        ("attack_row", "i4"),  # its row and column in the ways to attacks, NONE for none
-        ("attack_column", "i4"),
-        ("evade_row", "i4"),
-        ("evade_column", "i4"),
+        ("first", "i8"),
+        ("last", "i8"),
+        ("state", "i8"),  # 0 for that in which fighters shadow
+        ("onward", "i8"),  # the edge of those who choose none at its end
+        ("action_end", "i8"),  # the last node of the action that begins with it
+        ("contact", "i8"),  # the first strike of that action, NONE for none
+        ("attack_row", "i8"),  # its row and column in the ways to attacks, NONE for none
+        ("attack_column", "i8"),
+        ("evade_row", "i8"),
+        ("evade_column", "i8"),
     ],
     align=True,
 )
 WAYS = np.dtype(
     [
-        ("edge", "i4"),  # the next to take
-        ("ticks", "i4"),  # from the last node of a segment to the first of the action, NONE for no way
-        ("when", "i4"),  # ticks until what counts of the action: a strike's contact, an evasion's end; NONE for no way
-        ("x", "f4"),  # where the action begins, seen from that last node
-        ("z", "f4"),
-        ("yaw", "f4"),
-        ("hips_x", "f4"),  # where it has the hips when it counts
-        ("hips_z", "f4"),
-        ("limb_x", "f4"),  # and the limb that strikes, 0 for evasions
-        ("limb_y", "f4"),
-        ("limb_z", "f4"),
+        ("edge", "i8"),  # the next to take
+        ("ticks", "i8"),  # from the last node of a segment to the first of the action, NONE for no way
+        ("when", "i8"),  # ticks until what counts of the action: a strike's contact, an evasion's end; NONE for no way
+        ("x", "f8"),  # where the action begins, seen from that last node
+        ("z", "f8"),
+        ("yaw", "f8"),
+        ("hips_x", "f8"),  # where it has the hips when it counts
+        ("hips_z", "f8"),
+        ("limb_x", "f8"),  # and the limb that strikes, 0 for evasions
+        ("limb_y", "f8"),
+        ("limb_z", "f8"),
     ],
     align=True,
 )
@@ -98,9 +99,9 @@ class FightMap(NamedTuple):
     edges: Records
     segments: Records
     points: NDArray[np.float64]
-    attack_goals: NDArray[np.int32]
+    attack_goals: NDArray[np.int64]
     attacks: Records
-    evade_goals: NDArray[np.int32]
+    evade_goals: NDArray[np.int64]
     evades: Records
 
 
@@ -138,13 +139,13 @@ def _number(notes: Annotation, name: str) -> int:
     return names.index(name)
 
 
-def _action_ends(graph: MotionGraph, notes: Annotation) -> NDArray[np.int32]:
+def _action_ends(graph: MotionGraph, notes: Annotation) -> NDArray[np.int64]:
     """The node up to which the capture goes on in the state of each segment; its last, for the first state.  # (G,)"""
     follows = natural_steps(graph)[0]
     state = notes.state[notes.segment]
     goes_on = np.append((state[1:] == state[:-1]) & (state[1:] != 0) & follows[1:], False)
     stops = np.flatnonzero(~goes_on)
-    return np.where(notes.state == 0, notes.last, stops[np.searchsorted(stops, notes.first[:-1])]).astype(np.int32)
+    return np.where(notes.state == 0, notes.last, stops[np.searchsorted(stops, notes.first[:-1])])
 
 
 def _nodes(graph: MotionGraph, notes: Annotation, strikes: Strikes | None, action_end: NDArray) -> NDArray[np.void]:
@@ -209,7 +210,7 @@ def _ways(
     then: NDArray,
     row: NDArray,
     column: NDArray,
-) -> tuple[NDArray[np.int32], NDArray[np.void]]:
+) -> tuple[NDArray[np.int64], NDArray[np.void]]:
     """The segments of a state whose action has a node that counts, and the ways to them.
 
     Args:
@@ -241,13 +242,13 @@ def _ways(
     _fill_shifts(ways, order, row, goals, edges, nodes, notes.first)
     limb = np.where((nodes["limb"] != NONE)[:, None], points[np.arange(len(nodes)), nodes["limb"]], 0.0)
     _fill_ends(ways, notes.first[goals], then[goals], nodes, limb)
-    return goals.astype(np.int32), ways
+    return goals.astype(np.int64), ways
 
 
 @numba.njit(cache=True, nogil=True)
 def place_of(record):
     """Where a node, an edge or a way leads, as a triple."""
-    return float(record.x), float(record.z), float(record.yaw)
+    return record.x, record.z, record.yaw
 
 
 @numba.njit(cache=True, nogil=True)

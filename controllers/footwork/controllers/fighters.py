@@ -9,14 +9,14 @@ BY_ITSELF = -1
 """Instead of an activity or a goal that somebody else chose."""
 FIGHTER = np.dtype(
     [
-        ("activity", "i4"),  # what it does
-        ("goal", "i4"),  # the segment that its queued way leads to, NO_GOAL once it is there or where there is none
-        ("until", "i4"),  # the last node of the action that it is in or on the way to, NO_GOAL for none
-        ("rest", "i4"),  # segments of footwork to come before another attack
+        ("activity", "i8"),  # what it does
+        ("goal", "i8"),  # the segment that its queued way leads to, NO_GOAL once it is there or where there is none
+        ("until", "i8"),  # the last node of the action that it is in or on the way to, NO_GOAL for none
+        ("rest", "i8"),  # segments of footwork to come before another attack
         ("health", "f8"),  # 1 at the beginning of a round, 0 when beaten
         ("stamina", "f8"),  # 1 when rested
-        ("chosen_activity", "i4"),  # what somebody else lets it do, BY_ITSELF where nobody does
-        ("chosen_goal", "i4"),  # the segment that somebody else sends it to, BY_ITSELF where nobody does
+        ("chosen_activity", "i8"),  # what somebody else lets it do, BY_ITSELF where nobody does
+        ("chosen_goal", "i8"),  # the segment that somebody else sends it to, BY_ITSELF where nobody does
         ("chance", "u8"),  # the state of its random numbers
     ],
     align=True,

@@ -19,22 +19,22 @@ class Paths(NamedTuple):
     """Room for the predicted paths of two fighters: where each is after 0, 1, 2 ... ticks.
 
     Args:
-        node: of each.  # (2, FURTHEST + 1) int32
+        node: of each.  # (2, FURTHEST + 1) int64
         place: of each.  # (2, FURTHEST + 1, 3) float64
-        known: up to which tick.  # (2,) int32
-        goal: what the queued way leads to that is still ahead then, NO_GOAL for none.  # (2,) int32
+        known: up to which tick.  # (2,) int64
+        goal: what the queued way leads to that is still ahead then, NO_GOAL for none.  # (2,) int64
     """
 
-    node: NDArray[np.int32]
+    node: NDArray[np.int64]
     place: NDArray[np.float64]
-    known: NDArray[np.int32]
-    goal: NDArray[np.int32]
+    known: NDArray[np.int64]
+    goal: NDArray[np.int64]
 
 
 def no_paths() -> Paths:
     """Room for two paths."""
     ticks = FURTHEST + 1
-    return Paths(np.zeros((2, ticks), np.int32), np.zeros((2, ticks, 3)), np.zeros(2, np.int32), np.zeros(2, np.int32))
+    return Paths(np.zeros((2, ticks), np.int64), np.zeros((2, ticks, 3)), np.zeros(2, np.int64), np.zeros(2, np.int64))
 
 
 @numba.njit(cache=True, nogil=True)

@@ -126,7 +126,7 @@ def _choose(minds, fighters, node, room, tally, track):
             decided[who, 0], decided[who, 1], decided[who, 2] = decide(minds, fighters, who, room.paths)
     for who in range(2):
         if decided[who, 0] == UNDECIDED:
-            room.edge[who] = next_edge(world, node[who], fighters[who].goal, fighters[who].activity)
+            room.edge[who] = next_edge(world, int(node[who]), fighters[who].goal, fighters[who].activity)
         else:
             room.edge[who] = decided[who, 2]
             _commit(world, fighters[who], minds.styles[who], who, node[who], decided[who], tally, track)
@@ -145,11 +145,11 @@ def _commit(world, fighter, style, who, node, decided, tally, track):
         counts.attacks += 1
         fighter.stamina -= style.attack_cost
         fighter.rest = int(style.rest)
-        note(track, now, BEGUN, who, goal, NOBODY, 0.0)
     elif activity == EVADE:
         counts.evades += 1
         fighter.stamina -= style.evade_cost
-        note(track, now, EVADING, who, goal, NOBODY, 0.0)
+    if activity != SHADOW:
+        note(track, now, BEGUN if activity == ATTACK else EVADING, who, goal, NOBODY, 0.0)
     else:
         fighter.rest = max(fighter.rest - 1, 0)
         if world.nodes[node].edge_end - world.nodes[node].edge_start == 1:
@@ -213,16 +213,15 @@ def _strike(nodes, fighters, rules, body, node, room, tally, track):
         distance, target = shown_strike_distance(room.root, room.rotations, body, at.limb, who)
         counts, other, now = tally.of[who], 1 - who, tally.clock[0].ticks
         counts.strikes += 1
-        if distance <= rules.limb:
-            damage = rules.damage * min(1.0, at.speed / rules.full_speed)
+        hit, worth = distance <= rules.limb, distance - rules.limb
+        if hit:
+            worth = rules.damage * min(1.0, at.speed / rules.full_speed)
             counts.hits += 1
-            counts.dealt += damage
-            fighters[other].health -= damage
-            note(track, now, HIT, who, at.limb, target, damage)
-        else:
-            if fighters[other].activity == EVADE:
-                tally.of[other].evaded += 1
-            note(track, now, MISSED, who, at.limb, target, distance - rules.limb)
+            counts.dealt += worth
+            fighters[other].health -= worth
+        elif fighters[other].activity == EVADE:
+            tally.of[other].evaded += 1
+        note(track, now, HIT if hit else MISSED, who, at.limb, target, worth)
 
 
 @numba.njit(cache=True, nogil=True)
