@@ -53,6 +53,6 @@ export class Figure {
     this.body.light(this.standing);
     if (seconds < 0) return; // looking back leaves no traces
     this.prints.follow(this.standing);
-    this.trail.follow(this.place);
+    this.trail.follow(this.place, seconds);
   }
 }

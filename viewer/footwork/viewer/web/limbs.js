@@ -11,7 +11,7 @@ const HEEL = 0.065; // behind the ankle
 const RADII = {
   neck: [0.055, 0.05],
   upper_arm: [0.054, 0.042],
-  forearm: [0.042, 0.03],
+  forearm: [0.0395, 0.03],
   thigh: [0.086, 0.06],
   shank: [0.058, 0.04],
 };

@@ -5,6 +5,7 @@ const POINTS = 400;
 const APART = 0.05; // metres
 const HALF = 0.018; // of its width
 const HEIGHT = 0.006;
+const FASTEST = 10; // metres a second
 
 export class Trail {
   constructor(color) {
@@ -19,11 +20,12 @@ export class Trail {
     this.mesh.frustumCulled = false;
   }
 
-  follow(place) {
+  // seconds: since the last time.
+  follow(place, seconds) {
     const last = this.points.at(-1);
     const way = last ? Math.hypot(place.x - last[0], place.z - last[1]) : Infinity;
     if (way < APART) return;
-    if (way > 1) this.points = []; // put elsewhere, or another session
+    if (way > 1 + FASTEST * seconds) this.points = []; // put elsewhere
     this.points.push([place.x, place.z]);
     if (this.points.length > POINTS) this.points.shift();
     this.#write();
