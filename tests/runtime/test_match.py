@@ -7,7 +7,7 @@ import pytest
 
 from fighting_bundle import fighting_bundle, fighting_ground
 from footwork.controllers.activity import ATTACK, EVADE
-from footwork.controllers.attack import best_attack
+from footwork.controllers.attack import CLOSEST, best_attack
 from footwork.controllers.evade import NO_THREAT, best_evade
 from footwork.controllers.fighters import draw, new_fighters
 from footwork.controllers.fighting_style import STYLES, FightingStyle
@@ -152,7 +152,7 @@ def test_the_attack_is_the_one_whose_strike_comes_nearest():
             for one in range(2):
                 predict(world, int(alone["activity"][one]), ticks, paths, one)
             mine, theirs = tuple(paths.place[who, ticks]), tuple(paths.place[1 - who, ticks])
-            if math.hypot(mine[0] - theirs[0], mine[1] - theirs[1]) < 0.45:
+            if math.hypot(mine[0] - theirs[0], mine[1] - theirs[1]) < CLOSEST:
                 continue
             away = strike_distance(world, paths.node[who, ticks], mine, paths.node[1 - who, ticks], theirs)[0]
             nearest = min(nearest, away)
