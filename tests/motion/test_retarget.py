@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -122,13 +124,26 @@ def test_two_people_make_their_mean_however_many_clips_each():
 
 
 def test_travel_scales_with_the_legs():
+    clip, mapped = swaying_clip(), []
+    for size in (0.8, 1.25):
+        other = Skeleton(NAMES, clip.skeleton.parents, size * clip.skeleton.offsets, feet=FEET)
+        source = Clip("other", other, 30.0, size * clip.root_position, clip.rotations)
+        mapped.append(onto_common_body(source, default_body(), table_for(other)))
+    assert np.allclose(clip_places(mapped[0])[0], clip_places(mapped[1])[0], atol=1e-9)
+
+
+def test_motion_of_the_body_itself_comes_back_as_it_was_and_is_put_on_the_floor_where_it_floats():
+    other = Skeleton(NAMES, default_body().parents, 1.25 * default_body().offsets, feet=FEET)
     clip = swaying_clip()
-    tall = Skeleton(NAMES, clip.skeleton.parents, 1.25 * clip.skeleton.offsets, feet=FEET)
-    giant = Clip("giant", tall, 30.0, 1.25 * clip.root_position, clip.rotations)
-    same, from_giant = (
-        onto_common_body(source, default_body(), table_for(source.skeleton)) for source in (clip, giant)
-    )
-    assert np.allclose(clip_places(same)[0], clip_places(from_giant)[0], atol=1e-9)
+    source = Clip("other", other, 30.0, 1.25 * clip.root_position, clip.rotations)
+    once = onto_common_body(source, default_body(), table_for(other))
+    again = onto_common_body(once, default_body(), table_for(once.skeleton))
+    assert np.array_equal(again.root_position, once.root_position)
+    assert np.allclose(clip_places(again)[0], clip_places(once)[0], atol=1e-12)
+    assert np.array_equal(again.contacts, once.contacts)
+    floating = replace(once, root_position=once.root_position + np.array([0.0, 0.5, 0.0]))
+    landed = onto_common_body(floating, default_body(), table_for(once.skeleton))
+    assert np.abs(landed.root_position - once.root_position).max() < 0.02
 
 
 def test_a_standing_body_stands_at_its_rest_height_wherever_the_floor_was():

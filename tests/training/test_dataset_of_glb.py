@@ -11,6 +11,7 @@ from footwork.motion.capture import read_capture
 from footwork.motion.glb_writer import take_of, write_glb
 from footwork.motion.kinematics import clip_places
 from footwork.training.dataset import load_clips
+from footwork.training.embedded import embedded_clips
 from motion_samples import sample_clip
 
 
@@ -50,6 +51,14 @@ def test_the_same_motion_as_bvh_and_as_glb_becomes_the_same_clip(folder: Path, t
     (folder / "two.GLB").unlink()
     ours, theirs = load_clips(folder).clips[0], load_clips(tmp_path / "bvh").clips[0]
     np.testing.assert_allclose(clip_places(ours)[0], clip_places(theirs)[0], atol=1e-3)
+
+
+def test_motion_that_a_graph_was_made_of_comes_back_from_a_file(tmp_path: Path):
+    clips = [clip for clip in embedded_clips() if clip.name in ("walk_normal", "jump", "curve_tight_left")]
+    write_glb(tmp_path / "all.glb", [take_of(clip) for clip in clips])
+    for clip, again in zip(clips, load_clips(tmp_path).clips, strict=True):
+        assert again.name == f"all.glb#{clip.name}"
+        np.testing.assert_allclose(clip_places(again)[0], clip_places(clip)[0], atol=1e-3)
 
 
 def test_rows_for_what_a_file_does_not_hold_are_refused(folder: Path):

@@ -41,6 +41,8 @@ _THIGHS, _SHANKS, _ANKLES = (
     np.array([NAMES.index(f"{side}_{part}") for side in _SIDES]) for part in ("thigh", "shank", "foot")
 )
 _SPINE, _CHEST = NAMES.index("spine"), NAMES.index("chest")
+_ROUNDING = 1e-5  # metres by which offsets that were written and read again differ
+_LEVEL = 0.02  # metres by which a floor that was found before is found elsewhere
 _SHORTEST = 1e-6  # of the unit of the capture: below it a bone has no direction
 
 
@@ -80,6 +82,8 @@ def floors_of(clips: Sequence[Clip], body: Skeleton, tables: Sequence[NameTable]
 def onto_common_body(clip: Clip, body: Skeleton, table: NameTable, floor: Floor | None = None) -> Clip:
     """``clip`` moved by the common body ``body``, feet on y = 0, with contacts; labels and rate are kept.
 
+    Motion of that very body which stands on the floor already is kept as it is: what was written out comes back.
+
     Args:
         clip: capture as read.
         body: the common body.
@@ -90,6 +94,8 @@ def onto_common_body(clip: Clip, body: Skeleton, table: NameTable, floor: Floor 
     Raises:
         InputError: where the clip's skeleton lacks a joint of the table or its legs have no length.
     """
+    if (own := _own_motion(clip, body)) is not None and _levelled(own, table, floor):
+        return replace(own, contacts=detect_contacts(own))
     places, turns = _levelled_pose(clip, body, table, floor)
     turns = _lean_spine(body, places, _aimed(body, places, turns))
     at = _chain(body, places, turns)
@@ -101,6 +107,23 @@ def onto_common_body(clip: Clip, body: Skeleton, table: NameTable, floor: Floor 
     rotations = quaternion.unroll(local_rotations(body, turns))
     mapped = Clip(clip.name, body, clip.fps, at[:, 0], rotations, labels=clip.labels)
     return replace(mapped, contacts=detect_contacts(mapped))
+
+
+def _own_motion(clip: Clip, body: Skeleton) -> Clip | None:
+    """The clip on the body, where its skeleton is that body, its joints in any order."""
+    skeleton = clip.skeleton
+    if clip.translations is not None or sorted(skeleton.names) != sorted(body.names):
+        return None
+    order = skeleton.indices(body.names)
+    if not np.allclose(skeleton.offsets[order][1:], body.offsets[1:], rtol=0.0, atol=_ROUNDING):
+        return None
+    return replace(clip, skeleton=body, rotations=quaternion.unroll(clip.rotations[:, order]), contacts=None)
+
+
+def _levelled(own: Clip, table: NameTable, floor: Floor | None) -> bool:
+    """Whether the floor would hardly move the motion of the body itself."""
+    places = _scaled_pose(own, own.skeleton, table)[0]
+    return bool(np.abs(_levelled_pose(own, own.skeleton, table, floor)[0] - places).max() < _LEVEL)
 
 
 def captured_places(clip: Clip, body: Skeleton, table: NameTable, floor: Floor | None = None) -> NDArray[np.float64]:
