@@ -193,6 +193,10 @@ def test_a_body_whose_bones_have_rests_of_their_own_reads_the_same(written: Path
         blob[start:end] = values.astype("<f4").tobytes()
     (back,) = read_glb(put(tmp_path / "other.glb", document, bytes(blob)))
     assert_same(CLIP, back)
+    assert back.translations is None
+    turns = back.rotations[:, back.skeleton.indices(CLIP.skeleton.names)]
+    between = quaternion.multiply(turns, quaternion.conjugate(CLIP.rotations))
+    assert np.abs(quaternion.to_rotation_vector(between)).max() < 1e-5
     np.testing.assert_allclose(
         back.skeleton.offsets[back.skeleton.indices(CLIP.skeleton.names)], CLIP.skeleton.offsets, atol=1e-6
     )
