@@ -13,6 +13,7 @@ FIGHTER = np.dtype(
         ("goal", "i8"),  # the segment that its queued way leads to, NO_GOAL once it is there or where there is none
         ("until", "i8"),  # the last node of the action that it is in or on the way to, NO_GOAL for none
         ("rest", "i8"),  # segments of footwork to come before another attack
+        ("calm", "i8"),  # decisions to shadow since the last action
         ("health", "f8"),  # 1 at the beginning of a round, 0 when beaten
         ("stamina", "f8"),  # 1 when rested
         ("chosen_activity", "i8"),  # what somebody else lets it do, BY_ITSELF where nobody does

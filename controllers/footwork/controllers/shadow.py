@@ -14,6 +14,8 @@ from footwork.motion.hops import Hops
 from footwork.motion.planar import after, seen, triple
 from footwork.motion.shadowing_lookahead import ShadowingRules, best_hop
 
+RESTLESS = 40
+"""Decisions without an action after which a fighter roams twice as much."""
 NO_TABLE = np.zeros((0, 2, 4), dtype=np.float32)
 """In place of a table's values: shadow by the rule."""
 NO_TABLE.flags.writeable = False
@@ -54,7 +56,7 @@ def shadow_edge(
     row = int(hops.row[segment])
     if row < 0:
         return world.segments[segment].onward
-    if draw(fighters[who]) < styles[who].roam:
+    if draw(fighters[who]) < styles[who].roam * (1.0 + min(fighters[who].calm / RESTLESS, 1.0)):
         first, end = int(hops.start[row]), int(hops.start[row + 1])
         return int(hops.edge[first + int((end - first) * draw(fighters[who]))])
     if values.shape[0] == 0:

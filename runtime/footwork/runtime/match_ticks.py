@@ -138,6 +138,7 @@ def _commit(world, fighter, style, who, node, decided, tally, track):
     activity, goal, edge = decided
     counts, now = tally.of[who], tally.clock[0].ticks
     counts.decisions += 1
+    fighter.calm = fighter.calm + 1 if activity == SHADOW else 0
     fighter.activity, fighter.goal = activity, goal
     fighter.until = NO_GOAL if goal == NO_GOAL else world.segments[goal].action_end
     fighter.chosen_goal = BY_ITSELF
