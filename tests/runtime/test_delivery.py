@@ -3,6 +3,7 @@
 from collections import deque
 
 import pytest
+from msgspec.structs import replace
 
 from footwork.protocol.codec import decode_from_server
 from footwork.protocol.messages import Pose
@@ -163,3 +164,20 @@ def test_peers_that_are_gone_are_named(delivery, pipe):
     assert delivery.retry() == [PEER]
     delivery.forget(PEER)
     assert delivery.retry() == []
+
+
+def test_poses_of_a_bundle_that_went_are_not_sent_after_the_welcome_of_the_next(delivery, pipe):
+    for tick in range(3):
+        delivery.begin_frame()
+        delivery.show(PEER, pose(tick))
+    delivery.outdate(PEER)
+    delivery.tell(PEER, b"welcome")
+    pipe.read()
+    delivery.retry()
+    assert pipe.read() == [b"welcome"]
+    delivery.begin_frame()
+    delivery.show(PEER, pose(3))
+    delivery.retry()
+    (sent,) = map(decode_from_server, pipe.read())
+    assert sent == replace(pose(3), lost=1)
+    assert not delivery.waiting

@@ -97,6 +97,28 @@ def test_a_character_goes_on_at_its_place_in_its_pose_with_what_it_was_asked_for
     assert latter.lasting(there) == (1.25, "walk", None)
 
 
+def one_shots(simulation, slot):
+    given = simulation.orders.in_force
+    return given.held[slot], given.latched[slot]
+
+
+@pytest.mark.parametrize("let_go", [False, True])
+def test_a_jump_that_waits_goes_on_waiting_and_one_that_was_made_is_not_made_again(let_go):
+    former, latter = (Simulation(bundle, 2) for bundle in (toy_bundle(), other_bundle()))
+    jump, slot = former.vocabulary.index("jump"), former.spawn(0.0, 0.0, 0.0, "walk")
+    walks = former.vocabulary.outright(0.0, "walk")
+    former.give(slot, replace(walks, one_shot=jump))
+    if let_go:
+        former.give(slot, walks)
+    assert one_shots(latter, Succession(former, latter).move(slot)) == (-1 if let_go else jump, jump)
+    for _ in range(90):  # it jumps, and lands
+        former.step()
+    assert one_shots(former, slot) == (-1 if let_go else jump, -1)
+    there = Succession(former, latter).move(slot)
+    latter.give(there, walks if let_go else replace(walks, one_shot=jump))
+    assert one_shots(latter, there) == (-1 if let_go else jump, -1)
+
+
 def test_a_speed_that_was_asked_for_is_asked_for_on_where_it_can_be():
     former, slower, without = (Simulation(toy_bundle(speeds=speeds), 1) for speeds in (PACES, {"walk": (0.5, 1.0)}, {}))
     slot = former.spawn(0.0, 0.0, 0.0)

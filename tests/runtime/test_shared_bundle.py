@@ -1,5 +1,8 @@
 """Bundles in shared memory: a copy of the servers' own, sound whatever becomes of the file."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -53,3 +56,30 @@ def test_what_is_no_bundle_is_copied_nowhere(tmp_path):
     write_bundle(tmp_path / "b.footwork", toy_bundle())
     with pytest.raises(InputError, match="cannot be made"):
         shared_bundle(tmp_path / "b.footwork", tmp_path / "file" / "store")
+
+
+HOLDER = """
+import sys
+from pathlib import Path
+from footwork.runtime.shared_bundle import shared_bundle
+bundle = shared_bundle(Path(sys.argv[1]), Path(sys.argv[2]))
+print("held", flush=True)
+sys.stdin.read()
+"""
+
+
+def test_copies_that_no_server_holds_any_more_are_removed_and_others_stay(path, tmp_path):
+    store, other = tmp_path / "store", tmp_path / "other.footwork"
+    write_bundle(other, lively_bundle())
+    command = [sys.executable, "-c", HOLDER, str(other), str(store)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as holder:
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == "held\n"
+        mine = shared_bundle(path, store)
+        held = {f"{digest}.footwork" for digest in (mine.digest, lively_bundle().digest)}
+        assert {copy.name for copy in store.iterdir()} == held
+        holder.kill()  # without a word; the system gives its lock up
+        holder.wait()
+    shared_bundle(path, store)
+    assert [copy.name for copy in store.iterdir()] == [f"{mine.digest}.footwork"]
+    np.testing.assert_array_equal(mine.graph.target, toy_bundle().graph.target)

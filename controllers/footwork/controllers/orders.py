@@ -111,13 +111,17 @@ class Orders:
         self.heading, self.asked = self.in_force.heading, self.in_force.asked
         self._slots = np.arange(capacity)
 
-    def begin(self, slot: int, heading: float, behaviour: int) -> None:
-        """Forget what the slot was asked for before; a new character begins with this."""
-        _, lasting, asked, latched, held, ticks_left, entered, speed, asked_speed = self.in_force
+    def begin(self, slot: int, heading: float, behaviour: int, held: int = NONE) -> None:
+        """Forget what the slot was asked for before; a new character begins with this.
+
+        The one-shot behaviour ``held`` has been asked for already: a command that goes on asking does not ask again.
+        """
+        in_force = self.in_force
+        _, lasting, asked, latched, _, ticks_left, entered, speed, asked_speed = in_force
         self.heading[slot] = heading
         lasting[slot] = asked[slot] = behaviour
         speed[slot] = asked_speed[slot] = ANY_SPEED
-        latched[slot] = held[slot] = NONE
+        latched[slot], in_force.held[slot] = NONE, held
         ticks_left[slot], entered[slot] = 0, False
 
     def give(self, slot: int, command: Command, shown: int) -> None:

@@ -76,7 +76,7 @@ class Record(Struct, frozen=True, array_like=True, gc=False):
 
 
 class Spawned(Record, frozen=True, array_like=True, gc=False, tag="spawn"):
-    """A character came into a slot; ``node`` is -1 where its behaviour said where it began."""
+    """A character came into a slot; ``node`` is -1 where its behaviour said where it began, ``held`` for no key."""
 
     slot: Slot
     x: Number
@@ -84,6 +84,7 @@ class Spawned(Record, frozen=True, array_like=True, gc=False, tag="spawn"):
     yaw: Number
     behaviour: Annotated[str, Meta(max_length=256)]
     node: Annotated[int, Meta(ge=-1, lt=2**31)]
+    held: Index = -1
 
 
 class Commanded(Record, frozen=True, array_like=True, gc=False, tag="command"):

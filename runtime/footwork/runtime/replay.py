@@ -181,8 +181,8 @@ def take_effect(effect: r.Effect, simulation: Simulation) -> None:
 
 @take_effect.register
 def _(effect: r.Spawned, simulation: Simulation) -> None:
-    node = None if effect.node < 0 else effect.node
-    slot = simulation.spawn(effect.x, effect.z, effect.yaw, effect.behaviour, node=node)
+    place = (effect.x, effect.z, effect.yaw)
+    slot = simulation.spawn(*place, effect.behaviour, node=effect.node, held=effect.held)
     if slot != effect.slot:
         raise WorldError(f"a character came into slot {slot}, expected {effect.slot}")
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.bundle_controller import bundle_controller
-from footwork.controllers.command import Command, Vocabulary
+from footwork.controllers.command import NONE, Command, Vocabulary
 from footwork.controllers.controller import Controller, one_shots_of, speeds_of
 from footwork.controllers.orders import Orders
 from footwork.errors import InputError
@@ -44,6 +44,7 @@ class Simulation:
         behaviours: what commands may ask for: those that some frame shows.
         speeds: the slowest and the fastest that they may ask of each behaviour that takes a speed, m/s.
         vocabulary: reads commands.
+        orders: those in force.
 
     Raises:
         InputError: for a bundle without a converged steering table or without a frame of any behaviour.
@@ -71,14 +72,14 @@ class Simulation:
         self._one_shot = one_shots_of(self._controller)
         rest = self._idle if bundle.annotation is not None else ""
         self.vocabulary = Vocabulary(graph.behaviours, self.behaviours, self.speeds, one_shot=self._one_shot, rest=rest)
-        self._orders = Orders(capacity)
+        self.orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._shown_as = self._numbering()
         self._clip_of, self._frame_of = graph.nearest_source
         warm_kernels(self._controller)
-        self._ticks = ticks_of(self._controller, self.world, self._orders)
+        self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
-        self._snapshots = Snapshots(self.world, self._orders, self._controller.memory(capacity), belongs_to)
+        self._snapshots = Snapshots(self.world, self.orders, self._controller.memory(capacity), belongs_to)
         self._recorder: Recorder | None = None
         self._noted = False
 
@@ -93,10 +94,10 @@ class Simulation:
         """Whether there is no room for another character."""
         return len(self.world.slots) == self.world.capacity
 
-    def spawn(self, x: float, z: float, yaw: float, behaviour: str = "", *, node: int | None = None) -> int:
+    def spawn(self, x: float, z: float, yaw: float, behaviour: str = "", *, node: int = -1, held: int = NONE) -> int:
         """Put a character into the world, doing ``behaviour`` or else standing; returns its slot.
 
-        It begins at ``node``, where one is given, and otherwise where its behaviour does.
+        It begins at ``node``, if one is given, else where its behaviour does; ``held``: see ``Orders.begin``.
 
         Raises:
             UnknownBehaviour: for a behaviour that the bundle lacks.
@@ -105,10 +106,10 @@ class Simulation:
         if behaviour:
             self.vocabulary.index(behaviour)
         start = behaviour or self._idle
-        slot = self.world.spawn(self._start[start] if node is None else node, x, z, yaw)
+        slot = self.world.spawn(self._start[start] if node < 0 else node, x, z, yaw)
         self._controller.begin(slot)
-        self._orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in self._one_shot else start))
-        self._record(r.Spawned, slot, float(x), float(z), float(yaw), behaviour, -1 if node is None else node)
+        self.orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in self._one_shot else start), held)
+        self._record(r.Spawned, slot, float(x), float(z), float(yaw), behaviour, node, held)
         return slot
 
     def remove(self, slot: int) -> None:
@@ -137,7 +138,7 @@ class Simulation:
         self.world.require(slot)
         self.vocabulary.require(command)
         shown = self.world.graph.behaviour[self.world.node[slot]]
-        self._orders.give(slot, command, int(shown))
+        self.orders.give(slot, command, int(shown))
         self._record(r.Commanded, slot, float(command.heading), command.behaviour, command.one_shot, command.speed)
 
     def stand(self, slot: int) -> None:
@@ -146,7 +147,7 @@ class Simulation:
 
     def lasting(self, slot: int) -> tuple[float, str, float | None]:
         """What a character is asked for until told otherwise: heading, radians, behaviour, and speed, m/s, if any."""
-        given = self._orders.in_force
+        given = self.orders.in_force
         speed = None if np.isnan(given.speed[slot]) else given.speed[slot].item()
         return given.heading[slot].item(), self.world.graph.behaviours[given.lasting[slot]], speed
 

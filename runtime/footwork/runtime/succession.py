@@ -4,9 +4,12 @@ A character goes on at its place, at the node of the same behaviour whose pose i
 the distances between joints, in each one's own planar frame, and of how far the root travels in 0.2 s (convention).
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.controllers.command import NONE, Command
 from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.skeleton import Skeleton
@@ -44,10 +47,20 @@ class Succession:
         heading, behaviour, speed = former.lasting(slot)
         behaviour = behaviour if behaviour in latter.behaviours else ""
         speed = speed if behaviour in latter.speeds else None
-        there = latter.spawn(x, z, yaw, behaviour, node=int(self._nearest[former.world.node[slot]]))
-        if behaviour:
-            latter.give(there, latter.vocabulary.outright(heading, behaviour, speed))
+        given = former.orders.in_force
+        held, waiting = self._number(given.held[slot]), self._number(given.latched[slot])
+        node = int(self._nearest[former.world.node[slot]])
+        there = latter.spawn(x, z, yaw, behaviour, node=node, held=held if waiting == NONE else NONE)
+        asked = latter.vocabulary.outright(heading, behaviour, speed) if behaviour else Command(yaw, NONE)
+        # what waits is asked for anew, what was answered is not, though its key is held
+        for one_shot in (held,) if waiting in (NONE, held) else (waiting, NONE):
+            latter.give(there, replace(asked, one_shot=one_shot))
         return there
+
+    def _number(self, behaviour: int) -> int:
+        """The new simulation's number for a behaviour of the old one; NONE for none, and for one that it lacks."""
+        name = "" if behaviour == NONE else self.former.world.graph.behaviours[behaviour]
+        return self.latter.vocabulary.index(name) if name in self.latter.behaviours else NONE
 
 
 def require_same_body(one: Skeleton, other: Skeleton) -> None:
