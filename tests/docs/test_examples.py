@@ -21,7 +21,7 @@ def environment(cache: Path) -> dict[str, str]:
     return os.environ | {"PATH": path, "XDG_CACHE_HOME": str(cache), "EXAMPLES": str(ROOT / "examples")}
 
 
-@pytest.mark.timeout(300)
+@pytest.mark.timeout(500)
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 def test_the_examples_of_a_document_run(document, tmp_path):
     for language, code in BLOCK.findall(document.read_text()):
