@@ -118,15 +118,8 @@ def test_score_replays_traces(reported, bundle, tmp_path):
     assert len(report["traces"]) == 1
 
 
-@pytest.fixture(scope="module")
-def played(tmp_path_factory):
-    """The report of a demo and the folder where it keeps its bundle."""
-    cache = tmp_path_factory.mktemp("cache")
-    return json.loads(footwork("demo", "--headless", "--seconds", "3", "--cache", cache, "--json").stdout), cache
-
-
-def test_demo_steers_over_a_socket(played):
-    report, _ = played
+def test_demo_steers_over_a_socket(tmp_path):
+    report = json.loads(footwork("demo", "--headless", "--seconds", "3", "--cache", tmp_path, "--json").stdout)
     fields = {"frames", "nodes", "edges", "scc_fraction", "ticks", "late_ticks"}
     assert set(report) >= fields | {"tick_us", "command_to_pose_ms", "heading_error_deg"}
     assert report["ticks"] >= 85
@@ -134,12 +127,15 @@ def test_demo_steers_over_a_socket(played):
     assert 0.0 < report["command_to_pose_ms"]["p50"] < 1000.0
 
 
-def test_a_damaged_bundle_in_the_cache_is_built_anew(played, tmp_path):
-    [kept] = played[1].glob("*.footwork")
-    whole, damaged = kept.read_bytes(), tmp_path / kept.name
-    damaged.write_bytes(whole[:-7])
-    assert "building anew" in footwork("demo", "--headless", "--seconds", "0.5", "--cache", tmp_path).stderr
-    assert damaged.read_bytes() == whole
+def test_a_damaged_bundle_in_the_cache_is_built_anew(captures, tmp_path):
+    folder, labels = captures
+    demo = "demo", "--headless", "--seconds", "0.5", "--cache", tmp_path, "--motions", folder, "--labels", labels
+    footwork(*demo)
+    [kept] = tmp_path.glob("*.footwork")
+    whole = kept.read_bytes()
+    kept.write_bytes(whole[:-7])
+    assert "building anew" in footwork(*demo).stderr
+    assert kept.read_bytes() == whole
 
 
 def test_a_process_ends_on_bad_input_with_one_line_and_status_two():

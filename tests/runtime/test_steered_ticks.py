@@ -5,6 +5,7 @@ import pytest
 
 from footwork.controllers.command import Command
 from footwork.controllers.steering import SteeringController
+from footwork.motion.arrays import frozen
 from footwork.runtime.chosen_ticks import ChosenTicks
 from footwork.runtime.schedule import NOTHING, schedule_of
 from footwork.runtime.simulation import Simulation
@@ -74,8 +75,7 @@ def test_some_characters_go_on_while_the_others_wait():
 def test_a_move_that_cannot_be_made_is_told():
     steered = crowd(SteeringController(BUNDLE.graph, BUNDLE.table("steering")))
     assert isinstance(steered._ticks, SteeredTicks)
-    steered._ticks._policy = steered._ticks._policy._replace(
-        displacement=np.full_like(BUNDLE.graph.displacement, np.nan)
-    )
+    nowhere = frozen(np.full_like(BUNDLE.graph.displacement, np.nan), np.float32)  # as the kernel is compiled for
+    steered._ticks._policy = steered._ticks._policy._replace(displacement=nowhere)
     with pytest.raises(WrongMove, match=r"character 0 at node .* not finite"):
         steered.play(1, 1)

@@ -128,7 +128,9 @@ def test_clips_that_never_meet_say_so():
 def test_a_policy_that_does_not_converge_is_refused():
     with pytest.raises(InputError, match="not converged: residual"):
         build_bundle(
-            SampleMotions(sample_clips(2, 60)), GraphOptions(threshold=1.0), task=SteeringTask(discount=0.999999)
+            SampleMotions(sample_clips(2, 60)),
+            GraphOptions(threshold=1.0),
+            task=SteeringTask(discount=0.999999, heading_bins=8),
         )
 
 
