@@ -42,7 +42,7 @@ types: $(VENV)/developing
 	$(BIN)/pyright
 
 examples: $(VENV)/developing
-	$(BIN)/python -m pytest tests/docs --numprocesses $(WORKERS) --dist worksteal
+	$(BIN)/python -m pytest tests/docs
 
 bench: $(VENV)/developing  ## run the benchmarks, each prints JSON
 	@for script in benchmarks/*.py; do echo "== $$script" >&2; $(BIN)/python $$script || exit 1; done
