@@ -16,6 +16,8 @@ from footwork.motion.metrics import NAMES
 from footwork.motion.pair_weights import PairWeights
 from footwork.motion.task import SteeringTask
 from footwork.training import transition_search
+from footwork.training.chain_bands import COLUMNS, DIAGONALS, ROWS, STRETCH
+from footwork.training.chain_minima import _diagonals
 from footwork.training.chains import CONTEXT, Chains, chains_of_clips
 from footwork.training.dataset import load_clips
 from footwork.training.interpolation import interpolated
@@ -28,11 +30,11 @@ from shared_data import MOTIONS, needs_motions
 BEHAVIOURS = SteeringTask().behaviours
 
 
-def wandering_chains(seed: int, clips: int, interpolated_chains: int, joints: int = 3) -> Chains:
+def wandering_chains(seed: int, clips: int, interpolated_chains: int, joints: int = 3, longest: int = 39) -> Chains:
     """Points that wander smoothly, many of them along nearly the same way; context where chains are interpolated."""
     rng = np.random.default_rng(seed)
     count = clips + interpolated_chains
-    length = rng.integers(1, 40, count)
+    length = rng.integers(1, longest + 1, count)
     context = np.where(np.arange(count) < clips, 0, CONTEXT)
     way = np.cumsum(np.cumsum(rng.normal(0.0, 0.002, (60, joints, 3)), axis=0), axis=0)
     places = [
@@ -77,6 +79,23 @@ def test_weights_of_each_pair_give_what_comparing_every_pair_gives(seed, clips, 
     metric = RowMetric(chains, chains.places, pair.mass, pair)
     found = search(chains, threshold, metric=metric)
     assert_same(found, transitions_by_brute_force(chains, threshold, metric))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_chains_longer_than_what_is_dealt_with_at_once_give_the_same(seed):
+    chains = wandering_chains(seed, 3, 0, longest=200)
+    assert chains.length.max() > 2 * STRETCH
+    for threshold in (0.5, np.inf):
+        assert_same(search(chains, threshold), transitions_by_brute_force(chains, threshold))
+
+
+def test_the_furthest_diagonals_have_room():
+    near = np.array([[0, 1 << (ROWS - 1)], [COLUMNS - 1, 1]])
+    used, bands = np.zeros(DIAGONALS, dtype=np.bool_), np.empty((DIAGONALS, 2), dtype=np.int64)
+    assert (
+        _diagonals.py_func(near, used, bands) == 2
+    )  # as plain Python, which counts from the end or says what is not there
+    assert bands[:2].tolist() == [[1 - COLUMNS] * 2, [ROWS - 1] * 2]
 
 
 @needs_motions

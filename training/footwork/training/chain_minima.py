@@ -155,7 +155,7 @@ def _diagonals(near: NDArray, used: NDArray, bands: NDArray) -> int:
     """
     used[:] = False
     for t in range(len(near)):
-        bits, diagonal = near[t, 1], COLUMNS - (near[t, 0] - near[0, 0])
+        bits, diagonal = near[t, 1], COLUMNS - 1 - (near[t, 0] - near[0, 0])
         while bits:
             if bits & 1:
                 used[diagonal] = True
@@ -166,9 +166,9 @@ def _diagonals(near: NDArray, used: NDArray, bands: NDArray) -> int:
         if not used[diagonal]:
             continue
         if count == 0 or diagonal - last > _APART:
-            bands[count, 0] = diagonal - COLUMNS
+            bands[count, 0] = diagonal - (COLUMNS - 1)
             count += 1
-        bands[count - 1, 1], last = diagonal - COLUMNS, diagonal
+        bands[count - 1, 1], last = diagonal - (COLUMNS - 1), diagonal
     return count
 
 
