@@ -1,5 +1,6 @@
 """Connections that are too many, say nothing, or never end a message: cut, and nobody else notices."""
 
+import os
 import socket
 import sys
 import time
@@ -90,6 +91,14 @@ def is_shut(plain):
     except TimeoutError:
         return False
     return True
+
+
+def is_free(descriptor):
+    try:
+        os.fstat(descriptor)
+    except OSError:
+        return True
+    return False
 
 
 def memory():
@@ -197,6 +206,21 @@ def test_who_is_gone_is_told_once_and_only_after_another_look(router, peer_of):
     dealer.close()
     listen(router, lambda: len(router.connections) == 0)
     assert [router.gone() for _ in range(3)] == [[], [peer], []]
+
+
+def test_who_takes_the_place_of_one_that_just_went_is_not_taken_for_it(router, peer_of):
+    first = peer_of(router)
+    listen(router, lambda: router.connections._by_peer)
+    (descriptor,) = router.connections._by_descriptor
+    first.close()
+    while not is_free(descriptor):
+        time.sleep(0.001)
+    peer_of(router)  # is given the same descriptor
+    while (parts := router.receive()) is None:  # without a look at who came and went before
+        time.sleep(0.001)
+    for _ in range(3):
+        router.look()
+        assert parts[0] not in router.gone()
 
 
 def test_a_client_that_dies_in_lock_step_does_not_hold_the_others_up(peer_of):

@@ -94,29 +94,34 @@ class Connections:
         return True
 
     def meet(self, peer: bytes, frame: zmq.Frame) -> None:
-        """Learn from a frame of a peer's message which connection it has; other transports than TCP have none."""
+        """Learn from a frame of a peer's message which connection it has; other transports than TCP have none.
+
+        Where too many came and went of late to be sure, its next message tells.
+        """
         try:
             descriptor = int(frame.get("__fd"))
         except zmq.ZMQError:
             return
-        if descriptor not in self._by_descriptor:
-            self.follow()
+        # The descriptor may have been another connection's until just now: all that came and went is noted first.
+        if not self.follow():
+            return
         connection = self._by_descriptor.get(descriptor)
         if connection is not None:
             self._part(connection)
             connection.peer, connection.heard = peer, True
             self._by_peer[peer] = connection
 
-    def follow(self) -> None:
-        """Take note of connections that came and went."""
+    def follow(self) -> bool:
+        """Take note of connections that came and went; whether of all of them."""
         for _ in range(_EVENTS_AT_ONCE):
             try:
                 event = parse_monitor_message(self.events.recv_multipart(zmq.NOBLOCK))
             except zmq.Again:
-                return
+                return True
             self._forget(int(event["value"]))
             if event["event"] == zmq.EVENT_ACCEPTED:
                 self._begin(int(event["value"]))
+        return False
 
     def _begin(self, descriptor: int) -> None:
         if len(self._by_descriptor) >= self._most:
