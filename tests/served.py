@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from typing import Any
 
 import zmq
 
@@ -15,7 +16,8 @@ from footwork.runtime.server import Server
 from toy_bundle import toy_bundle
 
 BUNDLE = toy_bundle()
-TIMEOUT = 5
+TIMEOUT = 60
+"""For how long a busy machine may keep one waiting, seconds."""
 
 
 @contextmanager
@@ -44,6 +46,11 @@ def stranger(server: Server) -> Iterator[zmq.Socket]:
         socket.close()
 
 
+def client_of(server: Server, **options: Any) -> Client:
+    """A client of ours that waits for as long as it has to."""
+    return Client(server.address, timeout=TIMEOUT, **options)
+
+
 def answer(socket: zmq.Socket) -> m.FromServer:
     assert socket.poll(1000 * TIMEOUT), "no answer"
     return decode_from_server(socket.recv())
@@ -68,7 +75,7 @@ def consecutive(numbers: list[int]) -> bool:
     return numbers == list(range(numbers[0], numbers[0] + len(numbers)))
 
 
-def until(condition, seconds=5.0):
+def until(condition, seconds=TIMEOUT):
     end = time.monotonic() + seconds
     while not condition() and time.monotonic() < end:
         time.sleep(0.01)

@@ -9,9 +9,9 @@ import pytest
 
 from footwork.cli.main import main
 from footwork.motion.bundle import write_bundle
-from footwork.protocol.client import Client
 from footwork.runtime import recording as r
 from footwork.runtime.server import Server
+from served import client_of
 from toy_bundle import toy_bundle
 
 BUNDLE = toy_bundle()
@@ -22,7 +22,7 @@ def served(folder: Path) -> Path:
     server = Server(BUNDLE, bind="tcp://127.0.0.1:0", record=folder)
     thread = Thread(target=server.run)
     thread.start()
-    with Client(server.address) as client:
+    with client_of(server) as client:
         client.spawn(0, x=1.0)
         for tick in range(10):
             sent = client.command(0, heading=0.3 * tick, behaviour="walk")

@@ -22,11 +22,11 @@ def address():
     thread.start()
     yield server.address
     server.stop()
-    thread.join(5)
+    thread.join()
 
 
 def run(*command: str | Path, **options) -> str:
-    done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=100, check=False, **options)
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=110, check=False, **options)
     assert done.returncode == 0, done.stderr
     return done.stdout
 

@@ -29,7 +29,7 @@ def screen() -> Iterator[str]:
     assert running.stdout is not None
     yield f":{running.stdout.readline().strip()}"
     running.terminate()
-    running.wait(10)
+    running.wait(60)
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def address() -> Iterator[str]:
     thread.start()
     yield server.address
     server.stop()
-    thread.join(5)
+    thread.join()
 
 
 def seen(picture: Path, colour: tuple[int, int, int]) -> np.ndarray:
@@ -53,7 +53,7 @@ def test_the_character_is_seen_in_the_window_and_moves(screen: str, address: str
     environment = os.environ | {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
     command = [sys.executable, str(CLIENT), address, "2"]
     done = subprocess.run(
-        command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=90, check=False
+        command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=110, check=False
     )
     assert done.returncode == 0, done.stderr
     for colour in (LEFT, RIGHT):

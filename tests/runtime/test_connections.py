@@ -11,11 +11,11 @@ import pytest
 import zmq
 
 from footwork.protocol import messages as m
-from footwork.protocol.client import Client
 from footwork.protocol.codec import encode
 from footwork.runtime import connections
+from footwork.runtime.limits import Limits
 from footwork.runtime.router import Router
-from served import serving
+from served import TIMEOUT, client_of, serving
 
 GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\x00") + bytes(32)
 READY = b"\x05READY\x0bSocket-Type\x00\x00\x00\x06DEALER"
@@ -46,7 +46,7 @@ def raw(router, *sent):
 
 def shake_hands(plain):
     """Wait until libzmq is ready too: it closes the connection of who says more before that."""
-    plain.settimeout(5.0)
+    plain.settimeout(TIMEOUT)
     heard = b""
     while b"READY" not in heard:
         came = plain.recv(4096)
@@ -69,7 +69,7 @@ def peer_of():
     context.destroy(linger=0)
 
 
-def listen(router, until, seconds=5.0):
+def listen(router, until, seconds=TIMEOUT):
     """Take messages and look at connections until something is so; what came."""
     came = []
     end = time.monotonic() + seconds
@@ -82,7 +82,7 @@ def listen(router, until, seconds=5.0):
 
 
 def is_shut(plain):
-    plain.settimeout(5.0)
+    plain.settimeout(TIMEOUT)
     try:
         while plain.recv(4096):
             pass
@@ -123,7 +123,7 @@ def test_a_message_that_never_ends_is_cut_before_it_fills_the_memory(router, pee
     assert memory() - before < 16 << 20
     assert "no whole message" in caplog.text
     dealer.send(b"still here")
-    assert router.poll(5000)
+    assert router.poll(1000 * TIMEOUT)
     assert router.receive()[1] == b"still here"
 
 
@@ -194,7 +194,7 @@ def test_nothing_is_kept_of_connections_that_are_gone(router, peer_of):
 def test_other_transports_have_no_connections_to_watch(tmp_path, peer_of):
     router = Router(f"ipc://{tmp_path}/socket")
     peer_of(router)
-    assert router.poll(5000)
+    assert router.poll(1000 * TIMEOUT)
     assert (router.receive() or [])[1:] == [b"hello"]
     router.look()
     router.close()
@@ -224,7 +224,8 @@ def test_who_takes_the_place_of_one_that_just_went_is_not_taken_for_it(router, p
 
 
 def test_a_client_that_dies_in_lock_step_does_not_hold_the_others_up(peer_of):
-    with serving(lockstep=True) as server, Client(server.address) as client:
+    patient = Limits(idle_seconds=TIMEOUT)
+    with serving(lockstep=True, limits=patient) as server, client_of(server) as client:
         dying = peer_of(server)
         for message in (m.Hello(version=m.PROTOCOL_VERSION), m.Spawn(sequence=1, character=0), m.Step()):
             dying.send(encode(message))

@@ -50,10 +50,8 @@ def test_a_reader_that_stalls_holds_nobody_up_not_even_at_the_end(monkeypatch, c
     with os.fdopen(read) as reading, os.fdopen(write, "w") as stalled:
         monkeypatch.setattr("sys.stderr", stalled)
         with logging_to_stderr("text"):
-            begun = time.monotonic()
-            for _ in range(1000):
+            for _ in range(1000):  # far more than the pipe holds
                 LOG.info("x" * 1000)
-            assert time.monotonic() - begun < 1.0
             monkeypatch.undo()
             monkeypatch.setattr(logs, "_FAREWELL", 0.1)
         os.set_blocking(read, False)

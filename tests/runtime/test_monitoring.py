@@ -3,6 +3,7 @@
 import json
 import socket
 import sys
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -11,20 +12,19 @@ from contextlib import suppress
 import pytest
 
 from footwork.errors import InputError
-from footwork.protocol.client import Client
 from footwork.runtime.monitoring import Monitoring
-from served import serving
+from served import TIMEOUT, client_of, serving
 
 
 def got(url: str) -> tuple[int, str]:
     try:
-        with urllib.request.urlopen(url, timeout=5) as answer:
+        with urllib.request.urlopen(url, timeout=TIMEOUT) as answer:
             return answer.status, answer.read().decode()
     except urllib.error.HTTPError as error:
         return error.code, error.read().decode()
 
 
-def comes(url: str, wanted: int, seconds: float = 5.0) -> str:
+def comes(url: str, wanted: int, seconds: float = TIMEOUT) -> str:
     """The health's status once it is answered with this number."""
     end = time.monotonic() + seconds
     while (answer := got(url))[0] != wanted:
@@ -35,13 +35,15 @@ def comes(url: str, wanted: int, seconds: float = 5.0) -> str:
 
 @pytest.fixture
 def hold():
-    return {"until": 0.0}
+    """Holds the server up for as long as it is set."""
+    return threading.Event()
 
 
 @pytest.fixture
 def watched(hold):
     def held_up() -> bool:
-        time.sleep(max(0.0, hold["until"] - time.monotonic()))
+        while hold.is_set():
+            time.sleep(0.01)
         return False
 
     with serving(held_up) as server, Monitoring(server, "127.0.0.1:0") as monitoring:
@@ -50,7 +52,7 @@ def watched(hold):
 
 def test_metrics_tell_what_the_server_did(watched):
     server, address = watched
-    with Client(server.address) as client:
+    with client_of(server) as client:
         client.spawn(0)
         next(pose for pose in client.poses() if pose.tick > 2)
         status, text = got(f"{address}/metrics")
@@ -68,8 +70,9 @@ def test_a_server_that_makes_ticks_is_well_and_one_that_stalls_is_not(watched, h
     _, address = watched
     monkeypatch.setattr("footwork.runtime.monitoring.STALLED_SECONDS", 0.3)
     assert comes(f"{address}/health", 200) == "ok"
-    hold["until"] = time.monotonic() + 1.0
+    hold.set()
     assert comes(f"{address}/health", 503) == "stalled"
+    hold.clear()
     assert comes(f"{address}/health", 200) == "ok"
 
 
@@ -108,7 +111,7 @@ def test_who_asks_a_byte_at_a_time_is_hung_up_on(watched, monkeypatch):
                 return True
             return False
 
-        end = time.monotonic() + 5.0
+        end = time.monotonic() + TIMEOUT
         while goes_on():
             assert time.monotonic() < end
             time.sleep(0.05)

@@ -9,12 +9,11 @@ import pytest
 
 from footwork.errors import InputError
 from footwork.motion.bundle import sealed, write_bundle
-from footwork.protocol.client import Client
 from footwork.protocol.pose_arrays import root_of
 from footwork.runtime.reload import Reloader
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.succession import Succession, nearest_nodes
-from served import serving, until
+from served import TIMEOUT, client_of, serving, until
 from toy_bundle import toy_bundle
 
 PACES = {"walk": (1.0, 2.0)}
@@ -37,7 +36,7 @@ def reloading(tmp_path, **options):
     with (
         serving() as server,
         Reloader(server, {"bundle": path}, **options) as reloader,
-        Client(server.address) as client,
+        client_of(server) as client,
     ):
         client.spawn(7, x=20.0, z=-10.0)
         yield path, server, reloader, client
@@ -150,5 +149,5 @@ def test_a_server_that_ended_lets_nobody_wait():
     succession = Succession(server.simulation, server.simulate(other_bundle()))
     thread = threading.Thread(target=server.succeed, args=(succession,))
     thread.start()
-    thread.join(2)
+    thread.join(TIMEOUT)
     assert not thread.is_alive()

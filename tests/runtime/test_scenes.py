@@ -8,14 +8,13 @@ import pytest
 from footwork.errors import InputError
 from footwork.motion.bundle import read_bundle, sealed, write_bundle
 from footwork.protocol import messages as m
-from footwork.protocol.client import Client
 from footwork.protocol.errors import BUNDLE, CHARACTERS, RefusedError
 from footwork.protocol.spectator import Spectator
 from footwork.runtime.monitoring import Monitoring
 from footwork.runtime.recording import read_recording
 from footwork.runtime.reload import Reloader
 from footwork.runtime.server import Server
-from served import serving, until
+from served import TIMEOUT, client_of, serving, until
 from talk import LIMITS, Talk, codes, spawn, walk
 from toy_bundle import toy_bundle
 
@@ -102,15 +101,15 @@ def test_a_live_server_plays_reloads_records_shows_and_counts_each_by_itself(tmp
         serving(bundle=bundles, spectate="tcp://127.0.0.1:0", record=kept) as server,
         Reloader(server, paths) as reloader,
         Monitoring(server, "127.0.0.1:0") as monitoring,
-        Client(server.address) as one,
-        Client(server.address, bundle="slow") as other,
+        client_of(server) as one,
+        client_of(server, bundle="slow") as other,
     ):
         one.spawn(0, x=50.0)
         other.spawn(0, x=-50.0)
         assert next(one.poses()).character == next(other.poses()).character == 0
         with pytest.raises(RefusedError, match="bundle"):
-            Spectator(server.gallery_address or "", bundle="swift")
-        with Spectator(server.gallery_address or "", bundle="slow") as spectator:
+            Spectator(server.gallery_address or "", bundle="swift", timeout=TIMEOUT)
+        with Spectator(server.gallery_address or "", bundle="slow", timeout=TIMEOUT) as spectator:
             assert spectator.scene.digest == SLOW.digest
             public = next(spectator.poses())
             own = next(pose for pose in other.poses() if (pose.tick, pose.frame) >= (public.tick, public.frame))
@@ -123,7 +122,7 @@ def test_a_live_server_plays_reloads_records_shows_and_counts_each_by_itself(tmp
             until(lambda: next(spectator.poses()) and spectator.scene.digest == OTHER.digest)
         until(lambda: next(other.poses()) and other.welcome.digest == OTHER.digest)
         assert (one.welcome.digest, other.welcome.bundle) == (bundles["bundle"].digest, "slow")
-        metrics = urllib.request.urlopen(f"{monitoring.address}/metrics", timeout=5).read().decode()
+        metrics = urllib.request.urlopen(f"{monitoring.address}/metrics", timeout=TIMEOUT).read().decode()
     for line in ('footwork_reloads_total{bundle="slow"} 1.0', 'footwork_characters{bundle="bundle"} 1.0'):
         assert line in metrics
     summary = server.summary()

@@ -12,12 +12,11 @@ from pathlib import Path
 import pytest
 
 from footwork.protocol.client import Client
-from footwork.protocol.messages import Pose
-from served import consecutive, ticks
+from served import TIMEOUT, consecutive, ticks
 from talk import LIMITS, SECOND, Talk, spawn
 
-IDLE = 1.0
-STOPPED = 1.6  # longer than a session may be silent
+IDLE = 2.0
+STOPPED = 2.6  # longer than a session may be silent
 SERVER = f"""
 import json, sys
 from pathlib import Path
@@ -92,23 +91,14 @@ def play(process: subprocess.Popen) -> None:
         client.spawn(0)
         start = time.monotonic()
         assert consecutive(ticks(client, 40))  # over a second: six jumps
-        assert time.monotonic() - start < 4.0
+        assert time.monotonic() - start < TIMEOUT  # and not for as long as the clock went back
+        start = time.monotonic()
         stop_for(process, STOPPED, client)
-        after = ticks_within(client, 1.0)
-        assert consecutive(after)
-        # a second of ticks, what was on its way, and no more caught up with than a quarter of a second
-        assert 5 < len(after) < 30 + 8 + 8
+        assert consecutive(ticks(client, 60))
+        # what was on its way, and no more caught up with than a quarter of a second
+        assert time.monotonic() - start > STOPPED + (60 - 8 - 8) / 30
         sequence = client.command(0, 0.0, "walk")
         assert next(pose for pose in client.poses() if pose.acknowledged == sequence)
-
-
-def ticks_within(client: Client, seconds: float) -> list[int]:
-    """Tick numbers of the first frames that come within so many seconds; no refusal among them."""
-    end, found = time.monotonic() + seconds, []
-    while time.monotonic() < end:
-        message = client.listen(seconds)
-        found += [message.tick] if isinstance(message, Pose) and message.frame == 1 else []
-    return found
 
 
 def test_neither_a_jump_of_the_clock_nor_a_stop_is_noticed_by_a_session(jumping, tmp_path):

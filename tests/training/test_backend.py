@@ -210,7 +210,7 @@ def test_whatever_is_no_scheduler_is_one_error_in_bounded_time(greeting):
         started = time.monotonic()
         with pytest.raises(InputError, match=r"tcp://127.*: no Dask scheduler answers within 2 s"):
             in_the_cluster(f"tcp://127.0.0.1:{server.getsockname()[1]}", refusing, (), [0])
-        assert time.monotonic() - started < 15.0
+        assert time.monotonic() - started < 60.0
 
 
 def greet(server: socket.socket, greeting: bytes | None) -> None:
@@ -288,7 +288,7 @@ def test_an_interrupt_takes_back_what_the_cluster_has_not_begun(cluster, tmp_pat
     with subprocess.Popen(command, env=environment(), stderr=subprocess.PIPE, preexec_fn=heeding) as process:
         await_file(tmp_path / "1")
         process.send_signal(signal.SIGINT)
-        said = process.communicate(timeout=30)[1].decode()
+        said = process.communicate(timeout=100)[1].decode()
     assert said.splitlines()[-1] == "KeyboardInterrupt"
     begun, before = len(list(tmp_path.iterdir())), 0
     while begun > before:  # what was on its way still runs

@@ -15,7 +15,7 @@ from footwork.viewer.text_map import text_map
 from footwork.viewer.text_steering import TextSteering
 from served import serving
 
-SECONDS = 15.0
+SECONDS = 90.0
 WELCOME = m.Welcome(
     version=1,
     tick=0,

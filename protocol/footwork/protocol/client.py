@@ -28,7 +28,7 @@ class Client:
     Args:
         address: of the server, such as ``tcp://127.0.0.1:5555``.
         name: for the server's log.
-        timeout: how long to wait for the welcome, seconds.
+        timeout: how long to wait for the welcome, and for any other answer unless a call says otherwise, seconds.
         events: kinds of events to be told of beside those that answer a message, of ``messages.EVENTS``.
         resume: the welcome's token of a session whose connection broke, to go on with it.
         curve: the client's keys and the server's, for a server that lets in only those it knows.
@@ -52,6 +52,7 @@ class Client:
     ) -> None:
         self._connection = Connection(Role.CLIENT)
         self._waiting: deque[m.FromServer] = deque(maxlen=_KEPT)
+        self._timeout = timeout
         self._nonce = 0
         self._ping_every = float("inf")
         self._socket = zmq.Context.instance().socket(zmq.DEALER)
@@ -63,16 +64,16 @@ class Client:
         try:
             connect(self._socket, address, DEFAULT_ADDRESS)
             hello = m.Hello(version=m.PROTOCOL_VERSION, client=name, events=events, resume=resume, bundle=bundle)
-            self.welcome = self._greet(hello, timeout)
+            self.welcome = self._greet(hello)
         except BaseException:
             self._socket.close(linger=0)
             raise
         self._sequence = self.welcome.sequence
         self._ping_every = self.welcome.idle_seconds / 3.0 or float("inf")
 
-    def _greet(self, hello: m.Hello, timeout: float) -> m.Welcome:
+    def _greet(self, hello: m.Hello) -> m.Welcome:
         self._send(hello)
-        answer = self._require(timeout, "no answer to hello")
+        answer = self._require(self._timeout, "no answer to hello")
         if not isinstance(answer, m.Welcome):
             raise RefusedError("state", f"{type(answer).__name__.lower()} in answer to hello")
         return answer
@@ -115,13 +116,14 @@ class Client:
         self._send(m.Despawn(sequence=sequence, character=character))
         return sequence
 
-    def step(self, ticks: int = 1, timeout: float = 5.0) -> list[m.Pose]:
+    def step(self, ticks: int = 1, timeout: float | None = None) -> list[m.Pose]:
         """Let a server in lock-step make ticks; the poses at the last one's own moment. Events are kept for later.
 
         Raises:
             RefusedError: where the server refused this or an earlier message, says bye, or is silent for ``timeout``
                 seconds.
         """
+        timeout = self._timeout if timeout is None else timeout
         self._send(m.Step(ticks=ticks))
         poses, refused = [], None
         while not isinstance(answer := self._arrival(timeout), m.Stepped):
@@ -136,13 +138,13 @@ class Client:
         _accepted(refused)
         return poses
 
-    def ping(self, timeout: float = 5.0) -> float:
+    def ping(self, timeout: float | None = None) -> float:
         """Seconds until the pong came; messages that come meanwhile are kept for later.
 
         Raises:
             RefusedError: with code ``timeout`` where none comes in ``timeout`` seconds.
         """
-        sent = time.monotonic()
+        sent, timeout = time.monotonic(), self._timeout if timeout is None else timeout
         self._nonce += 1
         self._send(m.Ping(nonce=self._nonce))
         while (answer := self._arrival(sent + timeout - time.monotonic())) is not None:
@@ -175,12 +177,13 @@ class Client:
             if time.monotonic() >= end:
                 return None
 
-    def poses(self, timeout: float = 5.0) -> Iterator[m.Pose]:
+    def poses(self, timeout: float | None = None) -> Iterator[m.Pose]:
         """Poses as they come, for as long as they do; events and pongs are passed over.
 
         Raises:
             RefusedError: where the server refuses a message, says bye, or is silent for ``timeout`` seconds.
         """
+        timeout = self._timeout if timeout is None else timeout
         while True:
             message = self._require(timeout, "no pose")
             if isinstance(message, m.Pose):

@@ -27,5 +27,8 @@ RotationBytes = Annotated[bytes, Meta(min_length=16, max_length=16 * 256)]
 # Empty, or as long as the server makes them.
 Token = Annotated[bytes, Meta(max_length=16)]
 SpeedRanges = Annotated[dict[Name, tuple[Speed, Speed]], Meta(max_length=256)]
+# Of 1; a blow may take more than is left.
+Share = Annotated[float, Meta(ge=-1, le=1)]
+CharacterPairs = Annotated[tuple[tuple[CharacterNumber, CharacterNumber], ...], Meta(max_length=65536)]
 Kinds = Annotated[tuple[Name, ...], Meta(max_length=16)]
 CharacterNumbers = Annotated[tuple[CharacterNumber, ...], Meta(max_length=65536)]

@@ -40,7 +40,7 @@ class Spectator:
     Args:
         address: where the server publishes, such as ``tcp://127.0.0.1:5556``.
         characters: public numbers of those to look at, all where not given.
-        timeout: how long to wait for the scene, which comes once a second.
+        timeout: how long to wait for the scene, which comes once a second, and for poses unless said otherwise.
         curve: the client's keys and the server's, for a server that lets in only those it knows.
         bundle: whose characters to look at, those of the server's first unless given.
 
@@ -61,6 +61,7 @@ class Spectator:
         curve: CurveKeys | None = None,
         bundle: str = "",
     ) -> None:
+        self._timeout = timeout
         self._socket = zmq.Context.instance().socket(zmq.SUB)
         self._socket.set(zmq.MAXMSGSIZE, SERVER_MESSAGE_BYTES)
         self._socket.set(zmq.RCVHWM, _QUEUE)
@@ -68,31 +69,31 @@ class Spectator:
             curve.put_on(self._socket)
         try:
             connect(self._socket, address, DEFAULT_GALLERY)
-            topics, self.scene = self._find(bundle, timeout)
+            topics, self.scene = self._find(bundle)
         except BaseException:
             self.close()
             raise
         for topic in [topics.poses] if characters is None else map(topics.pose, characters):
             self._socket.subscribe(topic)
 
-    def _find(self, bundle: str, timeout: float) -> tuple[Topics, m.Welcome]:
+    def _find(self, bundle: str) -> tuple[Topics, m.Welcome]:
         """Where a bundle is shown: the first one's scene tells its own name and those of the others."""
-        first = self._scene_at(Topics(), timeout)
+        first = self._scene_at(Topics())
         if bundle in ("", first.bundle):
             return Topics(), first
         if bundle not in first.bundles:
             raise RefusedError(BUNDLE, f"no bundle {bundle!r}", valid=first.bundles)
         self._socket.unsubscribe(Topics().scene)
-        return Topics(bundle), self._scene_at(Topics(bundle), timeout)
+        return Topics(bundle), self._scene_at(Topics(bundle))
 
-    def _scene_at(self, topics: Topics, timeout: float) -> m.Welcome:
+    def _scene_at(self, topics: Topics) -> m.Welcome:
         self._socket.subscribe(topics.scene)
-        end = time.monotonic() + timeout
+        end = time.monotonic() + self._timeout
         while (left := end - time.monotonic()) > 0.0 and self._socket.poll(round(1000.0 * left)):
             frames = self._socket.recv_multipart()
             if frames[0] == topics.scene:  # and not one that was on its way from a topic before
                 return _scene(_message(frames))
-        raise RefusedError("timeout", f"no scene in {timeout:g} s")
+        raise RefusedError("timeout", f"no scene in {self._timeout:g} s")
 
     def receive(self, timeout: float) -> m.Welcome | m.Pose | None:
         """The next pose or scene, None where none comes in ``timeout`` seconds.
@@ -104,8 +105,9 @@ class Spectator:
             return None
         return _message(self._socket.recv_multipart())
 
-    def poses(self, timeout: float = 5.0) -> Iterator[m.Pose]:
+    def poses(self, timeout: float | None = None) -> Iterator[m.Pose]:
         """Poses as they come, until none does for ``timeout`` seconds; ``scene`` is kept up to date meanwhile."""
+        timeout = self._timeout if timeout is None else timeout
         end = time.monotonic() + timeout
         while (left := end - time.monotonic()) > 0.0:
             message = self.receive(left)

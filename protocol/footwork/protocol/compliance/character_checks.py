@@ -5,7 +5,7 @@ import struct
 
 from footwork.protocol import messages as m
 from footwork.protocol.codec import encode
-from footwork.protocol.compliance.peer import Dial, Failed, Peer, expect, in_session
+from footwork.protocol.compliance.peer import PATIENCE, Dial, Failed, Peer, expect, in_session
 
 
 def _place(pose: m.Pose) -> tuple[float, float]:
@@ -107,9 +107,9 @@ def events_are_sent_to_those_who_ask(dial: Dial) -> None:
         with in_session(dial, events=asked) as peer:
             peer.spawn()
             kinds = set()
-            while not isinstance(message := peer.listen(5.0), m.Pose):
+            while not isinstance(message := peer.listen(PATIENCE), m.Pose):
                 if isinstance(message, m.Event):
                     kinds.add(message.kind)
                 elif message is None:
-                    raise Failed("no pose in 5 s")
+                    raise Failed(f"no pose in {PATIENCE:g} s")
             expect("behaviour" in kinds, bool(asked), "whether a behaviour was told")

@@ -13,8 +13,8 @@ from footwork.protocol.client import DEFAULT_ADDRESS
 from footwork.protocol.codec import decode_from_server, encode
 from footwork.protocol.errors import LocalError, PeerError
 
-PATIENCE = 5.0
-"""How long an answer may take, seconds."""
+PATIENCE = 20.0
+"""How long an answer may take, on a busy machine too, seconds."""
 
 Kind = TypeVar("Kind", bound=m.FromServer)
 
