@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 pty = pytest.importorskip("pty", reason="this system has no pseudo-terminals")
-PATIENCE = 90.0
+PATIENCE = 240.0
 
 
 def interrupt_build(out: Path, stage: bytes, *options: str, motions: str = "locomotion") -> tuple[int, str]:

@@ -21,7 +21,7 @@ from footwork.viewer.page_files import PageFile
 from served import BUNDLE, serving
 
 FILES = {"/": PageFile("text/html", b"<p>the page</p>")}
-SECONDS = 5.0
+SECONDS = 20.0
 
 
 def against_a_server(test: Callable[[Bridge], Awaitable[None]], **options) -> None:
@@ -203,6 +203,7 @@ def test_a_server_that_was_lost_is_found_again():
             assert (await heard(page, "bridge"))["state"] == "lost"
             await page.send(encode(m.Ping()))
             assert (await heard(page, "error"))["code"] == "no_session"
+            assert await asyncio.to_thread(server.wait, SECONDS)  # until it has let go of its port
             restarted = Server(BUNDLE, bind=server.address)
             running = asyncio.get_running_loop().run_in_executor(None, restarted.run)
             try:
