@@ -262,13 +262,12 @@ def test_a_recording_is_shown_on_a_timeline_with_its_trail(browser, server, page
     page.goto(lines[1].removeprefix("live view at ").strip())
     wait_until(page, "globalThis.footwork?.figure.shown?.tick > 5")
     page.keyboard.press("p")
-    seek = "footwork.session.history.seek({share}); footwork.transport.paused"
-    assert page.evaluate(seek.format(share=0.9))
+    page.fill("#when", "0.9")
     wait_until(page, "footwork.figure.shown.tick > 100 && !document.querySelector('.absent')")
     assert page.evaluate("footwork.figure.trail.points.length") > 30  # left behind in what was skipped, too
     assert page.inner_text("#ago").endswith("of 3.98 s")
     assert page.inner_text(".behaviour") == "walk"
-    page.evaluate(seek.format(share=0.1))
+    page.fill("#when", "0.1")
     wait_until(page, "footwork.players[1].figure.shown.absent === true && document.querySelector('.absent') !== null")
     page.close()
     playing.terminate()

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Parameter
 
 from footwork.cli.output import emit, log
+from footwork.cli.recorded_film import is_recording
 from footwork.errors import InputError
 
 if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help loads no numerics
@@ -52,7 +53,7 @@ def export(
     from footwork.motion.bundle import read_bundle
 
     kind = format or _ending(out)
-    recorded = _is_recording(source)
+    recorded = is_recording(source)
     _check_options(source, recorded, bundle, clip, path)
     made_of = read_bundle(bundle if recorded and bundle else source)
     takes = _recorded(source, made_of) if recorded else _of_bundle(made_of, clip, path)
@@ -72,13 +73,6 @@ def _ending(out: Path) -> Literal["glb", "bvh"]:
             return "bvh"
         case other:
             raise InputError(f"ending {other!r} says no format, expected .glb or .bvh, or --format", "--out")
-
-
-def _is_recording(source: Path) -> bool:
-    from footwork.runtime.recording import MAGIC
-
-    with source.open("rb") as file:
-        return file.read(len(MAGIC)) == MAGIC
 
 
 def _check_options(source: Path, recorded: bool, bundle: Path | None, clip: tuple[str, ...], path: object) -> None:

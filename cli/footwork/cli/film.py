@@ -1,84 +1,109 @@
-"""A fight as a film for the live view: every pose of two AI fighters, what they do and how they fare."""
+"""Films for the live view: characters of whom every pose is known, as one file of the page."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from footwork.errors import InputError
 
 if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help loads no numerics
-    from footwork.runtime.match import Match
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from footwork.motion.graph import MotionGraph
 
 LONGEST_SECONDS = 600.0
+"""Of a film: a browser keeps all of it."""
 _TICK_RATE = 30
 
 
-def fight_film(bundle: Path, styles: Sequence[str], seed: int, seconds: float) -> bytes:
-    """The film, as one MessagePack map: ``welcome`` as in the protocol, ``ticks``, and an entry for each fighter.
+@dataclass(frozen=True, eq=False)
+class Role:
+    """What one character of a film does, F frames long.
 
-    A fighter has a ``title``, ``poses`` (ticks x (3 + 4 J) little-endian float32: place of joint 0, then rotations),
-    ``health`` (ticks float32), ``behaviour`` and ``transition`` (ticks uint8), ``clip`` and ``frame`` (ticks int32).
+    Args:
+        title: for people.
+        first: the film's frame at which it comes, from 0.
+        poses: place of joint 0, then local rotations joint by joint.  # (F, 3 + 4 J) float32
+        behaviour: numbers of the film's behaviours, -1 for none.  # (F,)
+        transition: whether a step to this frame's tick left the captured order.  # (F,)
+        node: of the graph.  # (F,)
+        health: 1 for unhurt, where there is such a thing.  # (F,)
+    """
 
-    Raises:
-        InputError: for a bundle without fighters, styles that are not two, or a time that is too long.
+    title: str
+    first: int
+    poses: NDArray[np.float32]
+    behaviour: NDArray[np.int64]
+    transition: NDArray[np.bool_]
+    node: NDArray[np.int64]
+    health: NDArray[np.float64] | None = None
+
+
+def packed(
+    graph: MotionGraph,
+    behaviours: Sequence[str],
+    roles: Sequence[Role],
+    *,
+    rate: int = _TICK_RATE,
+    first_tick: int = 1,
+    attribution: Sequence[str] = (),
+) -> bytes:
+    """A film as one MessagePack map: ``welcome`` as in the protocol, ``first_tick``, ``frames``, and ``roles``.
+
+    A role has a ``title``, the frame ``first`` at which it comes, and little-endian arrays of what it does from then
+    on: ``poses`` (3 + 4 J float32 each), ``behaviour`` (int16), ``transition`` (uint8), ``clip`` and ``frame`` (int32),
+    and ``health`` (float32) or nothing.
+
+    Args:
+        graph: what the characters move on.
+        behaviours: their names.
+        roles: the characters.
+        rate: frames a second.
+        first_tick: of the first frame.
+        attribution: of the bundle.
     """
     import msgpack
 
-    from footwork.controllers.fighting_style import STYLES, style_named
-    from footwork.motion.bundle import read_bundle
-    from footwork.runtime.match import Match, fight_ground, table_of
-
-    if len(styles) != 2:
-        raise InputError(f"{len(styles)} styles, expected two", "--styles")
-    if not 1.0 / _TICK_RATE <= seconds <= LONGEST_SECONDS:
-        raise InputError(f"{seconds:g} seconds of a fight, expected up to {LONGEST_SECONDS:g}", "--seconds")
-    ground = fight_ground(read_bundle(bundle))
-    chosen = [style_named(name, STYLES) for name in styles]
-    match = Match(ground, chosen, seed, shadowing=table_of(ground.bundle))
-    fighters = _played(match, round(seconds * _TICK_RATE))
-    titled = [{"title": style, **fighter} for style, fighter in zip(styles, fighters, strict=True)]
-    return msgpack.Packer().pack({"welcome": _welcome(match), "ticks": match.tick, "fighters": titled})
-
-
-def _welcome(match: Match) -> dict[str, Any]:
-    from footwork.controllers.activity import ACTIVITIES
-
-    graph = match.world.graph
     skeleton = graph.skeleton
-    return {
+    welcome = {
         "tick_rate": _TICK_RATE,
-        "frame_rate": _TICK_RATE,
+        "frame_rate": rate,
         "joints": skeleton.names,
         "parents": skeleton.parents.tolist(),
         "offsets": skeleton.offsets.tolist(),
         "ends": skeleton.ends.tolist(),
-        "behaviours": ACTIVITIES,
+        "behaviours": tuple(behaviours),
         "clips": graph.clips,
-        "attribution": match.ground.bundle.attribution,
+        "attribution": tuple(attribution),
+    }
+    frames = max(role.first + len(role.poses) for role in roles)
+    shown = [_packed_role(role, graph) for role in roles]
+    return msgpack.Packer().pack({"welcome": welcome, "first_tick": first_tick, "frames": frames, "roles": shown})
+
+
+def _packed_role(role: Role, graph: MotionGraph) -> dict[str, Any]:
+    clip, frame = graph.nearest_source
+    return {
+        "title": role.title,
+        "first": role.first,
+        "poses": role.poses.astype("<f4").tobytes(),
+        "behaviour": role.behaviour.astype("<i2").tobytes(),
+        "transition": role.transition.astype("u1").tobytes(),
+        "clip": clip[role.node].astype("<i4").tobytes(),
+        "frame": frame[role.node].astype("<i4").tobytes(),
+        "health": None if role.health is None else role.health.astype("<f4").tobytes(),
     }
 
 
-def _played(match: Match, ticks: int) -> list[dict[str, bytes]]:
-    """What is kept of both fighters, tick by tick."""
-    import numpy as np
+def ticks_within(seconds: float, option: str) -> int:
+    """So many seconds of a film in ticks.
 
-    joints = match.world.graph.skeleton.joint_count
-    poses = np.empty((ticks, 2, 3 + 4 * joints), dtype="<f4")
-    health, behaviour = np.empty((ticks, 2), dtype="<f4"), np.empty((ticks, 2), dtype=np.uint8)
-    node, transition = np.empty((ticks, 2), dtype=np.int64), np.empty((ticks, 2), dtype=np.uint8)
-    for tick in range(ticks):
-        poses[tick] = match.play(1, shown=True)[0]
-        health[tick], node[tick] = match.health, match.track.node[0]
-        behaviour[tick], transition[tick] = match.track.activity[0], ~match.track.natural[0]
-    clip, frame = match.world.graph.nearest_source
-    kept = {
-        "poses": poses,
-        "health": health,
-        "behaviour": behaviour,
-        "transition": transition,
-        "clip": clip[node].astype("<i4"),
-        "frame": frame[node].astype("<i4"),
-    }
-    return [{name: values[:, who].tobytes() for name, values in kept.items()} for who in range(2)]
+    Raises:
+        InputError: for none, and for more than LONGEST_SECONDS.
+    """
+    if not 1.0 / _TICK_RATE <= seconds <= LONGEST_SECONDS:
+        raise InputError(f"{seconds:g} seconds of a film, expected up to {LONGEST_SECONDS:g}", option)
+    return round(seconds * _TICK_RATE)

@@ -31,6 +31,8 @@ def play(
     fight: Annotated[bool, Off] = False,
     styles: str = "balanced,balanced",
     seed: int = 0,
+    bundle: Path | None = None,
+    start: float = 0.0,
     listen: str = "127.0.0.1:0",
     host: Annotated[Sequence[str], Parameter(negative=())] = (),
     rate: int = 60,
@@ -39,19 +41,22 @@ def play(
     key: Path | None = None,
     server_key: Path | None = None,
 ) -> None:
-    """Play a bundle's character, or one of a server that runs, until interrupted.
+    """Play a bundle's character, or one of a server that runs, or look at a recording, until interrupted.
 
     Prints the address of the live view and opens it in a browser where there is a display.
 
     Example: footwork play walker.footwork
 
     Args:
-        target: A bundle, or a server's address such as tcp://127.0.0.1:5555.
+        target: A bundle, a server's address such as tcp://127.0.0.1:5555, or a recording of `footwork serve --record`
+            or `footwork fight --record`.
         other: Another one, to be played side by side by the same keys.
         text: Play in the terminal instead of a browser.
         fight: Watch two AI fighters on a bundle that `footwork fight` takes, of --seconds, else of a minute.
         styles: How they fight, as in `footwork fight`.
         seed: What `footwork fight` is given for the same fight.
+        bundle: The bundle that a recording was made with.
+        start: Where in a recording to begin, seconds; --seconds of it are shown, ten minutes at most.
         listen: Where the page is served; port 0 takes any free one. Only this machine reaches it unless told otherwise.
         host: A further name that the page may be opened by, such as game.local:8000; may be given several times.
         rate: Frames sent a second: 30, 60 or 120, where a bundle is served.
@@ -63,13 +68,18 @@ def play(
     if seconds is not None and not seconds > 0.0:
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
     curve = _curve(key, server_key)
-    files = None if text else live_view_files()
-    if fight:
-        if files is None or other is not None:
-            raise InputError("one bundle, in a browser", "--fight")
-        film = _film(_bundle(target), styles, seed, seconds)
-        show_live_view([], {**files, **film}, listen=listen, hosts=host, open_browser=open_browser)
+    recorded = _is_recorded(target, bundle)
+    if fight or recorded:
+        if text or other is not None:
+            raise InputError("a fight or a recording is looked at alone and in a browser", target)
+        if recorded:
+            film = _film_of_recording(Path(target), bundle, start, seconds)
+        else:
+            film = _film_of_fight(_bundle(target), styles, seed, seconds)
+        shown = {**live_view_files(), **_as_file(film)}
+        show_live_view([], shown, listen=listen, hosts=host, open_browser=open_browser)
         return
+    files = None if text else live_view_files()
     targets = [target] if other is None else [target, other]
     with _servers(targets, rate) as (addresses, served):
         if files is None:
@@ -108,14 +118,36 @@ def _servers(targets: Sequence[str], rate: int) -> Iterator[tuple[list[str], lis
         yield addresses, served
 
 
-def _film(bundle: Path, styles: str, seed: int, seconds: float | None) -> dict[str, PageFile]:
-    """The film of a fight, as a file of the page."""
-    from footwork.cli.film import fight_film
+def _film_of_fight(bundle: Path, styles: str, seed: int, seconds: float | None) -> bytes:
+    from footwork.cli.fight_film import fight_film
+
+    return fight_film(bundle, [name.strip() for name in styles.split(",")], seed, seconds or FIGHT_SECONDS)
+
+
+def _film_of_recording(recording: Path, bundle: Path | None, start: float, seconds: float | None) -> bytes:
+    from footwork.cli.recorded_film import recorded_film
+
+    if bundle is None:
+        raise InputError("a recording holds no motion itself, expected the bundle that it was made with", "--bundle")
+    return recorded_film(recording, bundle, start, seconds)
+
+
+def _is_recorded(target: str, bundle: Path | None) -> bool:
+    """Whether a target is a recording; where it is not, there must be no bundle for one."""
+    from footwork.cli.recorded_film import is_recording
+
+    recorded = not target.startswith(_ADDRESSES) and is_recording(_bundle(target))
+    if bundle is not None and not recorded:
+        raise InputError(f"is for recordings, and {target} is none", "--bundle")
+    return recorded
+
+
+def _as_file(film: bytes) -> dict[str, PageFile]:
+    """A film as a file of the page."""
     from footwork.viewer.bridge import FILM
     from footwork.viewer.page_files import PageFile
 
-    names = [name.strip() for name in styles.split(",")]
-    return {FILM: PageFile("application/octet-stream", fight_film(bundle, names, seed, seconds or FIGHT_SECONDS))}
+    return {FILM: PageFile("application/octet-stream", film)}
 
 
 def _title(target: str) -> str:
@@ -125,7 +157,9 @@ def _title(target: str) -> str:
 def _bundle(target: str) -> Path:
     path = Path(target)
     if not path.is_file():
-        raise InputError("no such file; expected a bundle, or a server's address such as tcp://127.0.0.1:5555", path)
+        raise InputError(
+            "no such file, expected a bundle, a recording or an address such as tcp://127.0.0.1:5555", path
+        )
     return path
 
 

@@ -47,6 +47,34 @@ def is_fight(recording: r.Recording) -> bool:
     return bool(recording.records) and isinstance(recording.records[0], r.Fought)
 
 
+def match_of(recording: r.Recording, bundle: Bundle) -> Match:
+    """The match that a recording is of, before its first tick.
+
+    Raises:
+        InputError: for another bundle, another version of footwork, or numbers that no style or rule can have.
+    """
+    require_same(recording, bundle)
+    begun, header = recording.records[0], recording.header
+    if not isinstance(begun, r.Fought) or any(isinstance(record, r.Effect) for record in recording.records[1:]):
+        raise InputError("damaged: expected one match and nothing else in it", recording.where)
+    for numbers, kind in (
+        (begun.styles[0], FightingStyle),
+        (begun.styles[1], FightingStyle),
+        (begun.rules, MatchRules),
+    ):
+        if sorted(numbers) != sorted(ranged_names(kind)):
+            raise InputError(f"damaged: the numbers of a {kind.__name__} are not those it has", recording.where)
+    return Match(
+        fight_ground(bundle),
+        [FightingStyle(**numbers, where=recording.where) for numbers in begun.styles],
+        header.seed,
+        rules=MatchRules(**begun.rules, where=recording.where),
+        shadowing=table_of(bundle) if begun.table else None,
+        inertialise=header.inertialise,
+        foot_lock=header.foot_lock,
+    )
+
+
 def replay_fight(recording: r.Recording, bundle: Bundle, shown: Shown | None = None) -> Outcome:
     """Make a recorded match once more.
 
@@ -58,8 +86,7 @@ def replay_fight(recording: r.Recording, bundle: Bundle, shown: Shown | None = N
     Raises:
         InputError: for another bundle, another version of footwork, or numbers that no style or rule can have.
     """
-    require_same(recording, bundle)
-    match = _match_of(recording, bundle)
+    match = match_of(recording, bundle)
     digest, states, agreed, departed = hashlib.blake2b(digest_size=16), 0, 0, None
     for record in recording.records[1:]:
         poses = match.play(r.made_by(record) - match.tick, shown=True)
@@ -92,25 +119,3 @@ def _header(match: Match) -> r.Header:
 def _numbers(of: FightingStyle | MatchRules) -> dict[str, float]:
     values = asdict(of)
     return {name: float(values[name]) for name in ranged_names(type(of))}
-
-
-def _match_of(recording: r.Recording, bundle: Bundle) -> Match:
-    begun, header = recording.records[0], recording.header
-    if not isinstance(begun, r.Fought) or any(isinstance(record, r.Effect) for record in recording.records[1:]):
-        raise InputError("damaged: expected one match and nothing else in it", recording.where)
-    for numbers, kind in (
-        (begun.styles[0], FightingStyle),
-        (begun.styles[1], FightingStyle),
-        (begun.rules, MatchRules),
-    ):
-        if sorted(numbers) != sorted(ranged_names(kind)):
-            raise InputError(f"damaged: the numbers of a {kind.__name__} are not those it has", recording.where)
-    return Match(
-        fight_ground(bundle),
-        [FightingStyle(**numbers, where=recording.where) for numbers in begun.styles],
-        header.seed,
-        rules=MatchRules(**begun.rules, where=recording.where),
-        shadowing=table_of(bundle) if begun.table else None,
-        inertialise=header.inertialise,
-        foot_lock=header.foot_lock,
-    )

@@ -101,15 +101,16 @@ class Replay:
     Args:
         recording: what took effect.
         bundle: what it was recorded with.
+        at_once: ticks made at once, at most: 1 for who looks at the simulation after each of them.
 
     Raises:
         InputError: for another bundle, another version of footwork, or effects that cannot be.
     """
 
-    def __init__(self, recording: r.Recording, bundle: Bundle) -> None:
+    def __init__(self, recording: r.Recording, bundle: Bundle, *, at_once: int = r.LONGEST_GAP) -> None:
         header = recording.header
         require_same(recording, bundle)
-        self.recording = recording
+        self.recording, self._at_once = recording, at_once
         self.frames = header.rate // TICK_RATE
         self.simulation = Simulation(
             bundle, header.capacity, inertialise=header.inertialise, foot_lock=header.foot_lock
@@ -149,7 +150,7 @@ class Replay:
             pose = 4 * (3 + 4 * simulation.world.graph.skeleton.joint_count)
             a_tick = max(1, self.frames * len(simulation.world.slots) * pose)
             most = max(1, _POSE_BYTES // a_tick)
-            yield simulation.play(min(tick - simulation.tick, most), self.frames)
+            yield simulation.play(min(tick - simulation.tick, most, self._at_once), self.frames)
 
     def _take(self, record: r.AnyRecord, number: int) -> None:
         if isinstance(record, r.State):

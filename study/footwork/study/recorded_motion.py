@@ -1,6 +1,6 @@
 """What the characters of a recording did, as it was shown."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field
 
@@ -56,6 +56,20 @@ class _Watch:
             character.poses.append(poses[:, :, row].copy())
 
 
+class Occupants:
+    """Who is in which slot of a recording, as its ticks go by: a slot may hold several, one after the other."""
+
+    def __init__(self, recording: r.Recording) -> None:
+        self._coming = deque(record for record in recording.records if isinstance(record, r.Spawned))
+        self._born: Counter[int] = Counter()
+
+    def at(self, tick: int, slots: NDArray[np.intp]) -> list[tuple[int, int]]:
+        """A name for whom each slot holds in a tick that is not before the one asked for last.  # (n,)"""
+        while self._coming and self._coming[0].tick <= tick:
+            self._born[self._coming.popleft().slot] += 1
+        return [(self._born[slot], slot) for slot in slots.tolist()]
+
+
 def recorded_motion(recording: r.Recording, bundle: Bundle) -> list[Part]:
     """What every character of a recording did, as it was shown: smoothed, with held feet, at the recorded rate.
 
@@ -89,15 +103,8 @@ def _fight(recording: r.Recording, bundle: Bundle) -> _Watch:
 
 
 def _game(recording: r.Recording, bundle: Bundle) -> _Watch:
-    """A slot may hold several characters, one after the other."""
-    replay = Replay(recording, bundle)
-    spawned = [record for record in recording.records if isinstance(record, r.Spawned)]
-
-    def who(first: int) -> list[tuple[int, int]]:
-        born = Counter(record.slot for record in spawned if record.tick <= first)
-        return [(slot, born[slot]) for slot in replay.simulation.world.slots.tolist()]
-
-    watch = _Watch(who, recording.where)
+    replay, occupants = Replay(recording, bundle), Occupants(recording)
+    watch = _Watch(lambda first: occupants.at(first, replay.simulation.world.slots), recording.where)
     replay.run(watch.see)
     return watch
 

@@ -30,15 +30,16 @@ export class Card {
     const now = performance.now();
     if (pose.transition && pose.tick !== this.tick) this.jumped = now;
     this.tick = pose.tick;
-    put(this.behaviour, welcome.behaviours[pose.behaviour] ?? "other");
+    put(this.behaviour, pose.absent ? "not here" : (welcome.behaviours[pose.behaviour] ?? "other"));
     this.transition.classList.toggle("now", now - this.jumped < FLASH_MS);
     this.health.hidden = pose.health === undefined;
     this.health.value = pose.health ?? 1;
+    drawStrip(this.strip, history, welcome.behaviours);
+    if (pose.absent) return;
     put(this.clip, welcome.clips[pose.clip] ?? "none");
     put(this.frame, `${pose.sourceFrame}, tick ${pose.tick}`);
     put(this.speed, `${figure.speed.toFixed(2)} m/s, facing ${degrees(pose.facing)}°`);
     for (const [side, foot] of Object.entries(this.feet)) foot.classList.toggle("down", figure.standing[side] !== null);
-    drawStrip(this.strip, history, welcome.behaviours);
   }
 }
 

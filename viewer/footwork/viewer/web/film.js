@@ -7,20 +7,25 @@ const { decode } = globalThis.MessagePack;
 // One stand-in for a session a character of the film.
 export async function filmed(address) {
   const film = decode(new Uint8Array(await (await fetch(address)).arrayBuffer()));
-  return film.fighters.map((fighter) => new Filmed(film, fighter));
+  return film.roles.map((role) => new Filmed(film, role));
 }
 
 class Filmed {
-  constructor({ welcome, ticks }, fighter) {
-    this.title = fighter.title;
+  constructor({ welcome, first_tick: firstTick, frames }, role) {
+    this.title = role.title;
     this.welcome = welcome;
     this.history = new History(Infinity);
     this.history.live = false;
     this.latency = new Series(1);
     this.gaps = new Series(1);
-    const columns = columnsOf(fighter);
-    for (let tick = 0; tick < ticks; tick++) this.history.add(poseAt(columns, tick), (1000 * tick) / welcome.tick_rate);
-    this.poses = ticks;
+    const columns = columnsOf(role);
+    const framesPerTick = welcome.frame_rate / welcome.tick_rate;
+    for (let frame = 0; frame < frames; frame++) {
+      const when = { tick: firstTick + Math.floor(frame / framesPerTick), frame: (frame % framesPerTick) + 1 };
+      const pose = { ...when, ...poseAt(columns, frame - role.first) };
+      this.history.add(pose, (1000 * frame) / welcome.frame_rate);
+    }
+    this.poses = frames;
   }
 
   ask() {} // who is filmed does what it did
@@ -29,27 +34,27 @@ class Filmed {
 function columnsOf({ poses, health, behaviour, transition, clip, frame }) {
   return {
     poses: new Float32Array(poses.slice().buffer),
-    health: new Float32Array(health.slice().buffer),
+    health: health && new Float32Array(health.slice().buffer),
+    behaviour: new Int16Array(behaviour.slice().buffer),
     clip: new Int32Array(clip.slice().buffer),
     frame: new Int32Array(frame.slice().buffer),
-    behaviour,
     transition,
   };
 }
 
-function poseAt({ poses, health, behaviour, transition, clip, frame }, tick) {
-  const size = poses.length / health.length;
-  const values = poses.subarray(size * tick, size * (tick + 1));
+// frame: of the character; before its first and after its last it is absent.
+function poseAt({ poses, health, behaviour, transition, clip, frame: frames }, frame) {
+  if (frame < 0 || frame >= frames.length) return { absent: true, behaviour: -1, transition: false };
+  const size = poses.length / frames.length;
+  const values = poses.subarray(size * frame, size * (frame + 1));
   const rotations = values.subarray(3);
   return {
-    tick,
-    frame: 1,
     facing: yawOf(rotations),
-    behaviour: behaviour[tick],
-    clip: clip[tick],
-    sourceFrame: frame[tick],
-    transition: transition[tick] === 1,
-    health: health[tick],
+    behaviour: behaviour[frame],
+    clip: clip[frame],
+    sourceFrame: frames[frame],
+    transition: transition[frame] === 1,
+    health: health?.[frame],
     root: values.subarray(0, 3),
     rotations,
   };

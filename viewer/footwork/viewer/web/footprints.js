@@ -24,6 +24,12 @@ export class Footprints {
     });
   }
 
+  clear() {
+    this.group.clear();
+    this.prints = [];
+    this.standing = { left: null, right: null };
+  }
+
   #put(side, place) {
     const print = this.prints.length < PRINTS ? this.#another() : this.prints.shift();
     print.material.color.setHex(COLORS[side]);

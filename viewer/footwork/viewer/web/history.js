@@ -40,7 +40,14 @@ export class History {
     return share > 0 ? between(this.poses[before], this.poses[before + 1], share) : this.poses[before];
   }
 
+  // The poses before the shown one, so many at most, oldest first.
+  before(most) {
+    const shown = Math.floor(this.shown);
+    return this.poses.slice(Math.max(0, shown - most), shown);
+  }
+
   #play(frames) {
+    if (this.shown >= this.last && !this.goesOn) this.shown = -frames; // a film begins anew
     this.shown = Math.min(this.last, this.shown + frames);
     this.live = this.pace >= 1 && this.shown >= this.last && this.goesOn;
   }
@@ -76,7 +83,11 @@ export class History {
   get told() {
     const shown = this.poses[Math.floor(this.shown)];
     if (this.live || !shown) return "live";
-    const seconds = (this.goesOn ? shown.at - this.newest.at : shown.at) / 1000;
-    return `${seconds.toFixed(2).replace("-", "−")} s`;
+    if (!this.goesOn) return `${seconds(shown)} of ${seconds(this.newest)} s`;
+    return `−${((this.newest.at - shown.at) / 1000).toFixed(2)} s`;
   }
+}
+
+function seconds({ at }) {
+  return (at / 1000).toFixed(2);
 }

@@ -25,7 +25,10 @@ const camera = new Camera(stage.camera, stage.canvas);
 const quality = new Quality(stage);
 const notices = new Notices();
 const players = titles.map((title, number) => new Player(stage, at("figures"), title, number, hear, films[number]));
-const [{ session, figure }] = players; // whom the camera follows and the graphs tell of
+const [{ session, figure }] = players; // of whom the graphs tell
+const fight = films.length === 2 && films.every((film) => film.history.newest.health !== undefined);
+let [followed] = players; // by the camera, but for fights
+for (const player of players) player.card.root.onclick = () => (followed = player);
 const frames = new Series(300);
 const graphs = [
   [new Graph(at("graphs"), "key to pose", "ms", 120, 34), session.latency],
@@ -94,14 +97,16 @@ function turn(now) {
   else ask();
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
   for (const player of players) player.show(now, seconds);
-  camera.follow(middle(), figure.facing, seconds);
+  camera.follow(middle(), followed.figure.facing, seconds);
   if (quality.allows(now)) draw(now);
   before = now;
 }
 
-// What is looked at: halfway between those who fight, else the first.
+// What is looked at: halfway between those who fight, else whose card was clicked, while it is there.
 function middle() {
-  return films.length ? figure.place.clone().add(players.at(-1).figure.place).multiplyScalar(0.5) : figure.place;
+  if (fight) return figure.place.clone().add(players[1].figure.place).multiplyScalar(0.5);
+  const there = [followed, ...players].find((player) => player.figure.isThere) ?? followed;
+  return there.figure.place;
 }
 
 let drawnAt = performance.now();

@@ -61,10 +61,14 @@ export class Player {
   // now: ms; seconds: since the last time.
   show(now, seconds) {
     this.stepper.advance(now, this.paused ? 0 : this.pace);
-    if (this.welcome) this.figure.show(this.session.history.advance(seconds, this.welcome.frame_rate));
+    if (this.welcome) {
+      const { history } = this.session;
+      this.figure.show(history.advance(seconds, this.welcome.frame_rate), history);
+    }
   }
 
   tell() {
+    this.card.root.classList.toggle("absent", !this.figure.isThere);
     if (this.welcome) this.card.show(this.figure, this.session.history, this.welcome);
   }
 }

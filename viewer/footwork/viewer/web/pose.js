@@ -22,6 +22,7 @@ export function poseOf(message) {
 
 // A pose part of the way from one to the next; what is no number is the former's.
 export function between(former, next, share) {
+  if (former.absent || next.absent) return former;
   const root = former.root.map((value, k) => value + share * (next.root[k] - value));
   return { ...former, root, rotations: blended(former.rotations, next.rotations, share) };
 }

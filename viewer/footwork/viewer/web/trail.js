@@ -28,10 +28,17 @@ export class Trail {
     if (way > 1 + FASTEST * seconds) this.points = []; // put elsewhere
     this.points.push([place.x, place.z]);
     if (this.points.length > POINTS) this.points.shift();
-    this.#write();
+    this.changed = true;
   }
 
-  #write() {
+  clear() {
+    this.points = [];
+    this.changed = true;
+  }
+
+  draw() {
+    if (!this.changed) return;
+    this.changed = false;
     const { position, color } = this.geometry.attributes;
     const { r, g, b } = this.color;
     this.points.forEach(([x, z], k) => {
