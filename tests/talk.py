@@ -1,5 +1,7 @@
 """A host driven by hand, and short ways to say things to it."""
 
+from collections.abc import Callable
+
 from footwork.motion.bundle import Bundle
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server, encode
@@ -17,10 +19,16 @@ class Talk:
     """A host, and what it said to whom."""
 
     def __init__(
-        self, frame_rate: int = 30, *, lockstep: bool = False, bundle: Bundle = BUNDLE, **others: Bundle
+        self,
+        frame_rate: int = 30,
+        *,
+        lockstep: bool = False,
+        bundle: Bundle = BUNDLE,
+        simulate: Callable[[Bundle, int], Simulation] = Simulation,
+        **others: Bundle,
     ) -> None:
         bundles = {"bundle": bundle, **others}
-        simulations = {name: Simulation(each, LIMITS.characters) for name, each in bundles.items()}
+        simulations = {name: simulate(each, LIMITS.characters) for name, each in bundles.items()}
         self.host = Host(simulations, frame_rate, LIMITS, lockstep=lockstep)
         self.frames = frame_rate // 30
         self.now = 0

@@ -243,7 +243,7 @@ class SteeringController:
         self._make_room(slot + 1)
         self._held[slot] = 0
 
-    def memory(self, capacity: int) -> tuple[NDArray]:
+    def memory(self, capacity: int) -> tuple[NDArray, ...]:
         """For how many ticks the last decision of each slot still holds.  # (capacity or more,)"""
         self._make_room(capacity)
         return (self._held,)

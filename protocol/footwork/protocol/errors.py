@@ -19,6 +19,7 @@ SPEED = "speed"
 LOCK_STEP = "lock_step"
 RESUME = "resume"
 BUNDLE = "bundle"
+OPPONENT = "opponent"
 
 CODES = {
     MALFORMED: "the bytes are no message of this protocol, or a field is out of bounds",
@@ -38,6 +39,7 @@ CODES = {
     LOCK_STEP: "a step where the server has a clock of its own, or while the session's last one is not answered",
     RESUME: "no session waits for this token; the session is closed, say hello without it",
     BUNDLE: "the server plays no bundle of this name; ``valid`` lists those it plays; the session is closed",
+    OPPONENT: "the character is an opponent, which decides for itself and leaves with the one that it fights",
 }
 
 

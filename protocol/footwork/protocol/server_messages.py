@@ -2,11 +2,12 @@
 
 from typing import Annotated
 
-from msgspec import Meta, field
+from msgspec import UNSET, Meta, UnsetType, field
 
 from footwork.protocol.fields import (
     CharacterNumber,
     CharacterNumbers,
+    CharacterPairs,
     ClipName,
     Counter,
     Index,
@@ -16,6 +17,7 @@ from footwork.protocol.fields import (
     Offsets,
     Radians,
     RotationBytes,
+    Share,
     SpeedRanges,
     Text,
     Token,
@@ -54,6 +56,8 @@ class Welcome(Message, frozen=True):
         speeds: the slowest and the fastest, m/s, that commands may ask of each behaviour that takes a speed.
         bundle: the name of the bundle that the session plays.
         bundles: the names of all that the server plays, the first being that of a hello which names none.
+        opponent: the style of the opponents that come with characters; left out where none do.
+        opponents: of ``spawned``, each one that the client steers and its opponent; left out likewise.
     """
 
     version: Version
@@ -81,6 +85,8 @@ class Welcome(Message, frozen=True):
     speeds: SpeedRanges = field(default_factory=dict)
     bundle: Name = ""
     bundles: Names = ()
+    opponent: Name | UnsetType = UNSET
+    opponents: CharacterPairs | UnsetType = UNSET
 
 
 class Pose(Message, frozen=True):
@@ -99,6 +105,8 @@ class Pose(Message, frozen=True):
         root: place of joint 0 in the world, metres: 3 float32, little-endian.
         rotations: local rotations xyzw, joint 0 in the world: J x 4 float32, little-endian.
         lost: how many poses of this character were dropped since the last one sent, for a client that reads slowly.
+        health: of a fighter, 1 at the beginning of a round; left out of others.
+        stamina: of a fighter, 1 when rested; left out of others.
     """
 
     tick: Counter
@@ -113,6 +121,8 @@ class Pose(Message, frozen=True):
     root: VectorBytes
     rotations: RotationBytes
     lost: Counter = 0
+    health: Share | UnsetType = UNSET
+    stamina: Share | UnsetType = UNSET
 
     def __post_init__(self) -> None:
         if len(self.rotations) % 16:
@@ -124,11 +134,13 @@ class Event(Message, frozen=True):
 
     Args:
         tick: when.
-        kind: what: ``spawned``, ``despawned``, ``corrected``, ``teleported`` or one of ``EVENTS``; a client skips kinds
-            that it does not know.
+        kind: what: ``spawned``, ``despawned``, ``corrected``, ``teleported``, ``hit``, ``miss``, ``round`` or one of
+            ``EVENTS``; a client skips kinds that it does not know.
         character: to whom.
         sequence: of the message that caused it, 0 for none.
         behaviour: what the character does from this tick on: index into the welcome's behaviours, -1 for none.
+        opponent: the number of the one that a fighter fights, -1 for none; left out where nobody fights.
+        damage: of ``hit``: the part of its health that it took; left out of others.
     """
 
     tick: Counter
@@ -136,6 +148,8 @@ class Event(Message, frozen=True):
     character: CharacterNumber
     sequence: Counter = 0
     behaviour: Index = -1
+    opponent: Index | UnsetType = UNSET
+    damage: Share | UnsetType = UNSET
 
 
 class Error(Message, frozen=True):

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from msgspec import UNSET
 from msgspec.structs import replace
 
 from footwork.motion.bundle import Bundle
@@ -61,6 +62,7 @@ def welcome_of(
 
 def welcome_to(session: Session, welcome: m.Welcome, tick: int, *, resumed: bool) -> m.Welcome:
     """The welcome of one session; ``resumed`` if it is not new."""
+    fights = ((number, one.opponent) for number, one in session.characters.items() if one.steered)
     return replace(
         welcome,
         tick=tick,
@@ -68,4 +70,5 @@ def welcome_to(session: Session, welcome: m.Welcome, tick: int, *, resumed: bool
         resumed=resumed,
         sequence=session.sequence,
         spawned=tuple(session.characters),
+        opponents=UNSET if welcome.opponent is UNSET else tuple(fights),
     )

@@ -1,8 +1,9 @@
-"""What happened to a session's characters in a tick, for clients that asked to be told."""
+"""What happened to a session's characters in a tick, for its client."""
 
 from collections.abc import Iterator
 
 from footwork.protocol import messages as m
+from footwork.runtime.fight_events import fight_events
 from footwork.runtime.session import Session
 from footwork.runtime.simulation import Simulation
 
@@ -10,7 +11,8 @@ BEHAVIOUR, TRANSITION = m.EVENTS
 
 
 def happenings(session: Session, simulation: Simulation) -> Iterator[m.Event]:
-    """The events of the tick last made, of the kinds that the session's client asked for."""
+    """The events of the tick last made: those of fights, and of the kinds that the session's client asked for."""
+    yield from fight_events(session, simulation)
     if not session.events:
         return
     for number, character in session.characters.items():

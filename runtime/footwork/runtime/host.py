@@ -197,7 +197,7 @@ class Host:
         session = self._roster.part(peer, now)
         if session is None:
             return
-        for character in session.characters.values():
+        for character in session.steered:
             session.scene.simulation.stand(character.slot)
         log.info("session %s has lost its connection", peer.hex())
 
@@ -215,7 +215,7 @@ class Host:
         return session is not None
 
     def _remove_characters(self, session: Session, reason: str) -> None:
-        for character in session.characters.values():
+        for character in session.steered:
             session.scene.simulation.remove(character.slot)
         log.info("session %s ends: %s", session.peer.hex(), reason)
 
@@ -242,12 +242,10 @@ class Host:
 
     def _apply(self, session: Session, message: Sequenced) -> None:
         try:
-            event = session.scene.effects.apply(session, message)
+            for event in session.scene.effects.apply(session, message):
+                self._send(session, event)
         except PeerError as error:
             self.refuse(session.peer, error)
-        else:
-            if event is not None:
-                self._send(session, event)
 
     def step(self) -> list[Scene]:
         """In lock-step: make a tick of each bundle for which all that have characters in it have asked; those bundles.

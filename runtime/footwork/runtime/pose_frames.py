@@ -20,6 +20,8 @@ class PoseFrames:
         clip: the source clip of the greater weight, an index into the graph's clips.  # (capacity,)
         source_frame: frame of that clip at 30 Hz.  # (capacity,)
         transition: whether the last move left the captured order.  # (capacity,) bool
+        health: of fighters, 1 at the beginning of a round; None where nobody fights.  # (capacity,)
+        stamina: of fighters, 1 when rested; None where nobody fights.  # (capacity,)
     """
 
     root: NDArray[np.float32]
@@ -29,3 +31,5 @@ class PoseFrames:
     clip: NDArray[np.int32]
     source_frame: NDArray[np.int32]
     transition: NDArray[np.bool_]
+    health: NDArray[np.float64] | None = None
+    stamina: NDArray[np.float64] | None = None

@@ -1,5 +1,7 @@
 """The pose message of one character of what is shown."""
 
+from msgspec import UNSET
+
 from footwork.protocol.messages import Pose
 from footwork.protocol.pose_arrays import packed
 from footwork.runtime.simulation import PoseFrames
@@ -19,4 +21,6 @@ def pose_message(shown: PoseFrames, slot: int, *, tick: int, frame: int, number:
         transition=shown.transition.item(slot),
         root=packed(shown.root[slot]),
         rotations=packed(shown.rotations[slot]),
+        health=UNSET if shown.health is None else shown.health.item(slot),
+        stamina=UNSET if shown.stamina is None else shown.stamina.item(slot),
     )

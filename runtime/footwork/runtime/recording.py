@@ -149,6 +149,24 @@ class Fought(Record, frozen=True, array_like=True, gc=False, tag="fight"):
     table: bool
 
 
+class Opposed(Record, frozen=True, array_like=True, gc=False, tag="oppose"):
+    """Each character that is spawned from now on brings an opponent, in the slot after its own.
+
+    Args:
+        name: of the opponents' style.
+        styles: the numbers of the characters and of their opponents, as ``fighting_style.STYLE`` names them.
+        rules: the numbers of their matches, as ``match_rules.MatchRules`` names them.
+        seed: of the opponents.
+        table: whether they shadow by the bundle's table.
+    """
+
+    name: Annotated[str, Meta(max_length=64)]
+    styles: tuple[dict[str, Number], dict[str, Number]]
+    rules: dict[str, Number]
+    seed: Annotated[int, Meta(ge=0, le=2**32)]
+    table: bool
+
+
 class State(Record, frozen=True, array_like=True, gc=False, tag="state"):
     """The digest of all that was remembered of all characters after the tick."""
 
@@ -159,7 +177,7 @@ class End(Record, frozen=True, array_like=True, gc=False, tag="end"):
     """The recording was ended on purpose after the tick."""
 
 
-Effect = Spawned | Commanded | Corrected | Teleported | Removed | Restored | Resimulated | Fought
+Effect = Spawned | Commanded | Corrected | Teleported | Removed | Restored | Resimulated | Fought | Opposed
 AnyRecord = Effect | State | End
 _encoder = msgspec.msgpack.Encoder(enc_hook=methodcaller("item"))  # numbers may be NumPy's
 _header_decoder = msgspec.msgpack.Decoder(Header)

@@ -4,7 +4,7 @@ import hashlib
 import platform
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import singledispatch
+from functools import partial, singledispatch
 from importlib.metadata import version
 
 import llvmlite.binding
@@ -16,6 +16,8 @@ from footwork.errors import FootworkError, InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
 from footwork.runtime import recording as r
+from footwork.runtime.arena import Arena
+from footwork.runtime.opponent import recorded_opponent
 from footwork.runtime.recorder import Recorder
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.world_errors import WorldError
@@ -112,9 +114,7 @@ class Replay:
         require_same(recording, bundle)
         self.recording, self._at_once = recording, at_once
         self.frames = header.rate // TICK_RATE
-        self.simulation = Simulation(
-            bundle, header.capacity, inertialise=header.inertialise, foot_lock=header.foot_lock
-        )
+        self.simulation = _simulation_of(recording, bundle)
         self.simulation.tick = recording.first
         self._agreed, self._departed, self._states = recording.first, None, 0
 
@@ -170,6 +170,15 @@ class Replay:
                 self._departed = state.tick
 
 
+def _simulation_of(recording: r.Recording, bundle: Bundle) -> Simulation:
+    """The simulation that a recording was made in, before its first tick."""
+    header, first = recording.header, next(iter(recording.records), None)
+    kind = Simulation
+    if isinstance(first, r.Opposed):
+        kind = partial(Arena, opponent=recorded_opponent(first, recording.where))
+    return kind(bundle, header.capacity, inertialise=header.inertialise, foot_lock=header.foot_lock)
+
+
 @singledispatch
 def take_effect(effect: r.Effect, simulation: Simulation) -> None:
     """Let what was recorded take effect once more.
@@ -216,6 +225,12 @@ def _(effect: r.Restored, simulation: Simulation) -> None:
 @take_effect.register
 def _(effect: r.Fought, simulation: Simulation) -> None:
     raise WorldError("a match began, where characters were steered")
+
+
+@take_effect.register
+def _(effect: r.Opposed, simulation: Simulation) -> None:
+    if not isinstance(simulation, Arena) or len(simulation.world.slots):
+        raise WorldError("opponents came, where characters were steered already")
 
 
 @take_effect.register

@@ -4,10 +4,13 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 
+from msgspec import UNSET
+
 from footwork.errors import InputError
 from footwork.protocol import messages as m
 from footwork.protocol.errors import BUNDLE, PeerError
 from footwork.protocol.spectator import Topics
+from footwork.runtime.arena import Arena
 from footwork.runtime.effects import Effects
 from footwork.runtime.greeting import welcome_of
 from footwork.runtime.limits import Limits
@@ -92,6 +95,7 @@ class Scenes:
             self._frame_rate,
             self._limits,
             lockstep=self._lockstep,
+            opponent=simulation.opponent.name if isinstance(simulation, Arena) else UNSET,
             bundle=name,
             bundles=self._names,
         )
@@ -134,4 +138,4 @@ class Scenes:
         return not self._crowded(simulation)
 
     def _crowded(self, simulation: Simulation) -> bool:
-        return simulation.full or self.character_count >= self._limits.characters
+        return simulation.full or self.character_count + simulation.company > self._limits.characters

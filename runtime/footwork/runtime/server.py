@@ -15,6 +15,7 @@ from typing import Any
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
+from footwork.runtime.arena import Arena
 from footwork.runtime.clock import SECOND, FrameClock, now_ns
 from footwork.runtime.collector import collect_young, held_collector
 from footwork.runtime.exchange import Exchange
@@ -24,6 +25,7 @@ from footwork.runtime.histogram import Histogram
 from footwork.runtime.host import Host
 from footwork.runtime.key_folder import KeyFolder
 from footwork.runtime.limits import Limits
+from footwork.runtime.opponent import Opponent
 from footwork.runtime.recordings import Recordings
 from footwork.runtime.ring import Ring
 from footwork.runtime.router import DEFAULT_BIND, Router
@@ -56,10 +58,11 @@ class Server:
         spectate: where spectators may watch all characters, nowhere unless given; told by ``gallery_address``.
         keys: let in only clients whose CURVE keys are in this folder; without it whoever reaches the address.
         record: a folder that what takes effect is recorded in, nowhere unless given.
+        opponent: who comes with each character, to fight it; nobody unless given.
 
     Raises:
         InputError: for another rate, a name that is none, an address that cannot be bound, a folder that cannot be
-            written to or a bundle without a steering table.
+            written to, a bundle without a steering table or, with opponents, one that nobody can fight with.
         LocalError: for a bundle that the wire cannot hold.
     """
 
@@ -75,6 +78,7 @@ class Server:
         spectate: str | None = None,
         keys: KeyFolder | None = None,
         record: Path | None = None,
+        opponent: Opponent | None = None,
     ) -> None:
         if rate not in RATES:
             raise InputError(f"{rate} frames a second, expected one of {RATES}", "rate")
@@ -86,7 +90,8 @@ class Server:
         self.tick_us = Ring()
         self.lateness_us = Ring()
         self.tick_seconds = Histogram()
-        self.simulate = partial(Simulation, capacity=limits.characters, inertialise=inertialise)
+        kind = Simulation if opponent is None else partial(Arena, opponent=opponent)
+        self.simulate = partial(kind, capacity=limits.characters, inertialise=inertialise)
         simulations = {name: self.simulate(each) for name, each in bundles.items()}
         self._host = Host(simulations, rate, limits, lockstep=lockstep)
         self._recordings = Recordings(record, rate)

@@ -28,11 +28,15 @@ class Character:
         slot: its place in the world's arrays.
         acknowledged: highest sequence of its messages that took effect.
         behaviour: the behaviour that the client was told of, none yet before its first tick.
+        opponent: the number of the one that it fights, None where it fights nobody.
+        steered: whether the client steers it, which it does not where it is somebody's opponent.
     """
 
     slot: int
     acknowledged: int = 0
     behaviour: int | None = None
+    opponent: int | None = None
+    steered: bool = True
 
     def acknowledge(self, sequence: int) -> None:
         """Note that a message took effect; one that waited for a later tick does not lower the number."""
@@ -71,6 +75,11 @@ class Session:
         self.asked = 0
         self._inbox: dict[int, list[Sequenced]] = {}
         self._taken = self._more = 0
+
+    @property
+    def steered(self) -> list[Character]:
+        """The characters that the client steers: not those that are somebody's opponent."""
+        return [character for character in self.characters.values() if character.steered]
 
     def greet(self, hello: m.Hello) -> None:
         """Take the hello of a new connection."""

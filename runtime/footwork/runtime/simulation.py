@@ -79,7 +79,8 @@ class Simulation:
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
-        self._snapshots = Snapshots(self.world, self.orders, self._controller.memory(capacity), belongs_to)
+        memory, sound = self._controller.memory(capacity), getattr(self._controller, "sound", None)
+        self._snapshots = Snapshots(self.world, self.orders, memory, belongs_to, sound)
         self._recorder: Recorder | None = None
         self._noted = False
 
@@ -93,6 +94,11 @@ class Simulation:
     def full(self) -> bool:
         """Whether there is no room for another character."""
         return len(self.world.slots) == self.world.capacity
+
+    @property
+    def company(self) -> int:
+        """How many characters come with a spawn."""
+        return 1
 
     def spawn(self, x: float, z: float, yaw: float, behaviour: str = "", *, node: int = -1, held: int = NONE) -> int:
         """Put a character into the world, doing ``behaviour`` or else standing; returns its slot.

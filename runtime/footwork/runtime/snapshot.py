@@ -9,7 +9,7 @@ import hashlib
 import math
 import struct
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numba
@@ -110,10 +110,19 @@ class Snapshots:
         orders: what they are asked for.
         memory: what their controller remembers, arrays with a row for each slot.
         belongs_to: what else a snapshot belongs to, such as the bundle's digest.
+        sound: whether what memory holds of some slots can be; None where anything can.
     """
 
-    def __init__(self, world: World, orders: Orders, memory: Sequence[NDArray], belongs_to: str) -> None:
+    def __init__(
+        self,
+        world: World,
+        orders: Orders,
+        memory: Sequence[NDArray],
+        belongs_to: str,
+        sound: Callable[[NDArray[np.intp]], bool] | None = None,
+    ) -> None:
         arrays = [*world.characters, *orders.in_force, *memory]
+        self._memory_sound = sound or (lambda slots: True)
         self._rows = tuple(_as_bytes(array) for array in arrays if array[:1].size)
         self._row_bytes = sum(rows.shape[1] for rows in self._rows)
         layout: list[Any] = [(array.dtype.str, array.shape[1:]) for array in arrays]
@@ -151,7 +160,7 @@ class Snapshots:
         tick = self._checked_header(blob, len(slots))
         before = self.rows(slots)
         _put(self._rows, slots, np.frombuffer(blob, np.uint8, offset=_HEADER.size))
-        if not _sound(slots, *self._checked):
+        if not (_sound(slots, *self._checked) and self._memory_sound(slots)):
             _put(self._rows, slots, np.frombuffer(before, np.uint8))
             raise InputError("holds numbers that no character has", "snapshot")
         return tick

@@ -13,6 +13,7 @@ from footwork.controllers.command import NONE, Command
 from footwork.errors import InputError
 from footwork.motion.graph import MotionGraph
 from footwork.motion.skeleton import Skeleton
+from footwork.runtime.arena import Arena
 from footwork.runtime.simulation import Simulation
 
 _AHEAD = 0.2
@@ -31,11 +32,13 @@ class Succession:
         latter: the one that follows it, with no character yet and room for all.
 
     Raises:
-        InputError: for another body.
+        InputError: for another body, and where characters fight.
     """
 
     def __init__(self, former: Simulation, latter: Simulation) -> None:
         require_same_body(former.world.graph.skeleton, latter.world.graph.skeleton)
+        if isinstance(former, Arena):
+            raise InputError("fights do not go over to another bundle", latter.world.graph.where)
         self.former = former
         self.latter = latter
         self._nearest = nearest_nodes(former.world.graph, latter.world.graph)

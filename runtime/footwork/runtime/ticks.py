@@ -9,6 +9,8 @@ from footwork.controllers.controller import Controller
 from footwork.controllers.orders import Orders
 from footwork.controllers.steering import SteeringController
 from footwork.runtime.chosen_ticks import ChosenTicks
+from footwork.runtime.duel_ticks import DuelTicks
+from footwork.runtime.duels import DuelSteering
 from footwork.runtime.schedule import Schedule
 from footwork.runtime.steered_ticks import SteeredTicks
 from footwork.runtime.world import World
@@ -27,6 +29,8 @@ class Ticks(Protocol):
 
 def ticks_of(controller: Controller, world: World, orders: Orders) -> Ticks:
     """The fastest way that a controller allows; one that does more than steer is asked at every tick."""
+    if isinstance(controller, DuelSteering):
+        return DuelTicks(controller, world, orders)
     if type(controller) is SteeringController:
         return SteeredTicks(controller, world, orders)
     return ChosenTicks(controller, world, orders)
