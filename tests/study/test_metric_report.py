@@ -26,7 +26,7 @@ def test_the_report_has_the_knee_that_a_build_takes(name):
 
 def test_the_curve_is_drawn(tmp_path):
     _, knee = metric_report(CLIPS, "uniform")
-    assert knee_plot(knee, "uniform", tmp_path / "knee.png").read_bytes().startswith(b"\x89PNG")
+    assert knee_plot(knee, "uniform", tmp_path / "knee.svg").read_text().startswith("<svg")
 
 
 def test_an_unknown_metric_is_refused():

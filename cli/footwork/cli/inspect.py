@@ -26,7 +26,7 @@ def inspect(
 
     Args:
         source: A bundle, a folder of BVH or ASF/AMC files, embedded:locomotion or embedded:fighting.
-        plots: A folder to draw contact sheets and plots into.
+        plots: A folder to draw contact sheets and plots into, with a page that shows them all, index.html.
         metric: Look at motions through a metric (uniform, dynamics, torso or joints): its ranked costs and their knee,
             which --threshold auto of a build takes.
         reading: How a folder of capture is read.
@@ -43,6 +43,12 @@ def inspect(
             report = _inspect_motions(source, plots, reading, report_progress)
         else:
             report = _inspect_bundle(Path(source), plots, report_progress)
+        if plots is not None:
+            from footwork.study.inspection_page import inspection_page
+
+            pictures = [Path(picture) for picture in report["plots"]]
+            page = inspection_page(plots, Path(source).name, report, pictures, report["attribution"])
+            report |= {"page": str(page)}
     emit(report, json, source)
 
 
@@ -67,7 +73,7 @@ def _inspect_metric(source: str, metric: str, plots: Path | None, reading: Readi
     pictures = []
     if plots:
         plots.mkdir(parents=True, exist_ok=True)
-        pictures = [knee_plot(knee, metric, plots / f"knee_{metric}.png")]
+        pictures = [knee_plot(knee, metric, plots / f"knee_{metric}.svg")]
     return report | _about(dataset.attribution, pictures)
 
 

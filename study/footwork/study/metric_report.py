@@ -9,7 +9,8 @@ import numpy as np
 
 from footwork.motion.clip import Clip
 from footwork.motion.metrics import metric_of
-from footwork.study import drawing
+from footwork.study.drawing import pyplot
+from footwork.study.plot_style import FIGURE, MARKER, add_legend, dress, save_svg
 from footwork.training.knee import Knee, threshold_at_knee
 from footwork.training.transitions import local_minima
 
@@ -42,19 +43,17 @@ def metric_report(clips: Sequence[Clip], name: str) -> tuple[dict[str, Any], Kne
 
 
 def knee_plot(knee: Knee, name: str, path: str | os.PathLike) -> Path:
-    """The ranked costs with what both methods take for their knee, as a PNG."""
-    figure, axes = drawing.pyplot().subplots(figsize=(8, 4.5), facecolor=drawing.PAPER)
+    """The ranked costs with what both methods take for their knee, as an SVG."""
+    figure, axes = pyplot().subplots(figsize=FIGURE)
     ranks = np.arange(1, len(knee.curve) + 1)
-    axes.plot(ranks, knee.curve, color=drawing.INK, lw=1.4)
+    axes.plot(ranks, knee.curve, color=MARKER["ink"], lw=1.4)
     for method, rank, style in (("Kneedle", knee.kneedle, "--"), ("broken stick", knee.broken_stick, ":")):
         if rank is not None:
-            axes.axvline(rank, color=drawing.LABEL_COLOURS["walk"], lw=1.2, ls=style, label=f"{method}: rank {rank}")
+            axes.axvline(rank, color=MARKER["well"], lw=1.2, ls=style, label=f"{method}: rank {rank}")
     height = knee.threshold / knee.median
-    axes.axhline(height, color=drawing.LABEL_COLOURS["run"], lw=1.0, label=f"threshold {knee.threshold:.3g}")
-    axes.legend(frameon=False)
-    axes.set_title(f"Costs of the best places for transitions, {name} metric", loc="left", color=drawing.INK)
-    axes.set(
-        xlabel="rank, near repeats left out", ylabel="cost, multiples of the median", xlim=(0, None), ylim=(0, None)
-    )
+    axes.axhline(height, color=MARKER["standard"], lw=1.0, label=f"threshold {knee.threshold:.3g}")
+    dress(axes, f"Costs of the best places for transitions, {name} metric", caption="near repeats are left out")
+    axes.set(xlabel="rank", ylabel="cost, multiples of the median", xlim=(0, None), ylim=(0, None))
+    add_legend(axes)
     figure.tight_layout()
-    return drawing.save(figure, path)
+    return save_svg(figure, path)

@@ -1,39 +1,17 @@
-"""Charts as inline SVG in the page's own colours, so that they follow its light and dark appearance.
+"""Charts as inline SVG in the page's own colours, so that they follow its light and dark appearance."""
 
-matplotlib draws them in marker colours that stand for nothing but the page's variables, which then take their place.
-"""
-
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from io import StringIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from footwork.study import drawing
+from footwork.study import plot_style
+from footwork.study.drawing import pyplot
+from footwork.study.plot_style import FIGURE, MARKER
 
-# marker colour -> variable of the page's style sheet
-_VARIABLES = {
-    "#010101": "ink",
-    "#020202": "faint",
-    "#030303": "grid",
-    "#040404": "standard",
-    "#050505": "well",
-    "#060606": "rival",
-}
-_COLOUR = {name: marker for marker, name in _VARIABLES.items()}
 STANDARD, WELL = "standard", "well"
-# the head of a file, a size of its own, a style that would hold for all of the page, names that figures share
-_LEFT_OUT = (
-    r"^.*?(?=<svg)",
-    r"<metadata>.*?</metadata>\s*",
-    r"<style.*?</style>",
-    r'(?<=<svg) height="[^"]*"| (?:width|height)="[^"]*pt"',
-    r'(?<=<g) id="[^"]*"',
-)
-_WIDTH = 7.2  # inches: text of 9 points is then as large as the page's small print
 
 
 @dataclass(frozen=True)
@@ -69,8 +47,7 @@ class Axis:
 
 def line_charts(panels: Sequence[tuple[str, Sequence[Series], Axis, Axis]], height: float = 3.2) -> str:
     """Panels side by side, each a title, its series, its x axis and its y axis, under one legend."""
-    plt = drawing.pyplot()
-    figure, grid = plt.subplots(1, len(panels), figsize=(_WIDTH, height), squeeze=False)
+    figure, grid = pyplot().subplots(1, len(panels), figsize=(FIGURE[0], height), squeeze=False)
     for axes, (title, series, x, y) in zip(grid[0], panels, strict=True):
         for one in series:
             _draw_series(axes, one)
@@ -78,18 +55,15 @@ def line_charts(panels: Sequence[tuple[str, Sequence[Series], Axis, Axis]], heig
     handles = {line.get_label(): line for axes in grid[0] for line in axes.get_lines()}
     columns = min(len(handles), 4)
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.22 * (1 + (len(handles) - 1) // columns) / height))
-    legend = figure.legend(list(handles.values()), list(handles), loc="upper center", ncols=columns, frameon=False)
-    for text in legend.get_texts():
-        text.set_color(_COLOUR["ink"])
-        text.set_fontsize(8.5)
-    return _svg(figure)
+    plot_style.add_legend(figure, list(handles.values()), list(handles), loc="upper center", ncols=columns)
+    return plot_style.inline_svg(figure)
 
 
 def matrix_panels(panels: Sequence[tuple[str, NDArray]], columns: int, x: str, y: str) -> str:
     """Matrices of values 0..1 as pictures, white at 1, in rows of ``columns``."""
-    plt = drawing.pyplot()
     rows = -(-len(panels) // columns)
-    figure, grid = plt.subplots(rows, columns, figsize=(_WIDTH, rows * _WIDTH / columns * 1.08), squeeze=False)
+    size = FIGURE[0], rows * FIGURE[0] / columns * 1.08
+    figure, grid = pyplot().subplots(rows, columns, figsize=size, squeeze=False)
     for axes in grid.flat:
         axes.axis("off")
     for axes, (title, values) in zip(grid.flat, panels, strict=False):
@@ -98,11 +72,11 @@ def matrix_panels(panels: Sequence[tuple[str, NDArray]], columns: int, x: str, y
         _dress(axes, title, Axis(x, ticks=()), Axis(y, ticks=()))
         axes.grid(visible=False)
     figure.tight_layout()
-    return _svg(figure)
+    return plot_style.inline_svg(figure)
 
 
 def _draw_series(axes: Any, series: Series) -> None:
-    colour = _COLOUR[series.graph]
+    colour = MARKER[series.graph]
     axes.plot(
         np.asarray(series.x, dtype=float),
         np.asarray(series.y, dtype=float),
@@ -117,13 +91,7 @@ def _draw_series(axes: Any, series: Series) -> None:
 
 
 def _dress(axes: Any, title: str, x: Axis, y: Axis) -> None:
-    axes.set_title(title, fontsize=9.5, color=_COLOUR["ink"])
-    axes.set_facecolor("none")
-    axes.grid(color=_COLOUR["grid"], lw=0.6)
-    axes.tick_params(which="both", colors=_COLOUR["faint"], labelsize=8)
-    for spine in axes.spines.values():
-        spine.set_color(_COLOUR["faint"])
-    axes.spines[["top", "right"]].set_visible(False)
+    plot_style.dress(axes, title)
     for axis, place in ((x, axes.xaxis), (y, axes.yaxis)):
         _dress_axis(axes, place, axis)
 
@@ -132,7 +100,7 @@ def _dress_axis(axes: Any, place: Any, axis: Axis) -> None:
     from matplotlib.ticker import NullFormatter, ScalarFormatter
 
     across = place is axes.xaxis
-    place.set_label_text(axis.label, fontsize=8.5, color=_COLOUR["ink"])
+    place.set_label_text(axis.label)
     if axis.log:
         (axes.set_xscale if across else axes.set_yscale)("log")
     if axis.limits:
@@ -142,17 +110,3 @@ def _dress_axis(axes: Any, place: Any, axis: Axis) -> None:
         if axis.log:
             place.set_minor_formatter(NullFormatter())
             place.set_major_formatter(ScalarFormatter())
-
-
-def _svg(figure: Any) -> str:
-    """The figure as an SVG element that is as wide as its place, with the page's fonts and colours."""
-    plt = drawing.pyplot()
-    out = StringIO()
-    salt = str(len(figure.axes)) + "".join(axes.get_title() + axes.get_ylabel() for axes in figure.axes)
-    with plt.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
-        figure.savefig(out, format="svg", transparent=True, metadata={"Date": None})
-    plt.close(figure)
-    svg = out.getvalue()
-    for left_out in _LEFT_OUT:
-        svg = re.sub(left_out, "", svg, flags=re.DOTALL)
-    return re.sub("|".join(_VARIABLES), lambda found: f"var(--{_VARIABLES[found.group()]})", svg)

@@ -1,13 +1,13 @@
 """Pictures of matrices of costs, and of where two metrics differ."""
 
 from collections.abc import Sequence
-from io import BytesIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.study import drawing
+from footwork.study.drawing import pyplot
+from footwork.study.plot_style import add_scale, dress, inline_svg
 from footwork.training.transitions import Minima
 
 _BRIGHTEST = 2.0  # medians: a cost so high is white
@@ -15,18 +15,15 @@ _UNLIKE = 1.0  # medians: a difference so large has full colour
 _POINTS = {"uniform": "#e0703a", "dynamics": "#1f6fa8", "both": "#23272e"}
 
 
-def cost_picture(
-    costs: Sequence[tuple[str, NDArray]], difference: NDArray, picks: Sequence[tuple[str, Minima]]
-) -> bytes:
-    """Matrices in medians of their own side by side, then a difference of two with chosen points, as a PNG.
+def cost_picture(costs: Sequence[tuple[str, NDArray]], difference: NDArray, picks: Sequence[tuple[str, Minima]]) -> str:
+    """Matrices in medians of their own side by side, then a difference of two with chosen points, as an inline SVG.
 
     Args:
         costs: titles and matrices.  # (N, N) each
         difference: in the same measure.  # (N, N)
         picks: kinds ("uniform", "dynamics" or "both") and the points chosen by them.
     """
-    plt = drawing.pyplot()
-    figure, grid = plt.subplots(1, len(costs) + 1, figsize=(11.4, 3.3), facecolor=drawing.PAPER)
+    figure, grid = pyplot().subplots(1, len(costs) + 1, figsize=(9.6, 3.0))
     for axes, (title, values) in zip(grid, costs, strict=False):
         image = axes.imshow(values, cmap="gray", vmin=0.0, vmax=_BRIGHTEST)
         _dress(axes, title, figure, image, "medians")
@@ -37,10 +34,7 @@ def cost_picture(
         axes.plot(points.j, points.i, "o", ms=3.6, mec="white", mew=0.4, color=_POINTS[kind], label=_words(kind))
     axes.legend(loc="lower left", fontsize=7, framealpha=0.85)
     figure.tight_layout()
-    out = BytesIO()
-    figure.savefig(out, dpi=130, format="png", facecolor=figure.get_facecolor(), metadata={"Software": None})
-    plt.close(figure)
-    return out.getvalue()
+    return inline_svg(figure)
 
 
 def _words(kind: str) -> str:
@@ -48,12 +42,9 @@ def _words(kind: str) -> str:
 
 
 def _dress(axes: Any, title: str, figure: Any, image: Any, unit: str) -> None:
-    axes.set_title(title, fontsize=9.5, color=drawing.INK)
-    axes.tick_params(labelsize=7, colors=drawing.FAINT)
-    axes.set_xlabel("frame", fontsize=8, color=drawing.INK)
-    bar = figure.colorbar(image, ax=axes, fraction=0.046, pad=0.03)
-    bar.ax.tick_params(labelsize=7, colors=drawing.FAINT)
-    bar.set_label(unit, fontsize=8, color=drawing.INK)
+    dress(axes, title, grid=None)
+    axes.set_xlabel("frame")
+    add_scale(figure, image, axes, unit)
 
 
 def contrast(costs: NDArray[np.float64], apart: int) -> float:

@@ -3,26 +3,20 @@
 import base64
 from collections.abc import Mapping, Sequence
 from html import escape
-from importlib.resources import files
 from itertools import groupby
 from typing import Any
 
 from footwork.study.reproduction.outcome import Outcome, Status
 from footwork.study.reproduction.row import PUBLISHED, Cell, Column, Figure, Judgement, Table, Verdict
+from footwork.study.web_page import web_page
 
 _CLASS = {Verdict.HOLDS: "holds", Verdict.FAILS: "fails", Verdict.OPEN: "open"}
 
 
 def page_of(outcomes: Sequence[Outcome], about: Mapping[str, Any]) -> str:
     """The page of a run; ``about`` is what the JSON file says of the run as a whole (``run.about``)."""
-    style = (files("footwork.study.reproduction") / "page.css").read_text(encoding="utf-8")
     body = "\n".join([_head(about), _overview(outcomes), *map(_paper, _by_paper(outcomes)), _foot(about)])
-    return (
-        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>The papers, reproduced</title>\n<style>\n{style}</style>\n</head>\n"
-        f"<body>\n<main>\n{body}\n</main>\n</body>\n</html>\n"
-    )
+    return web_page("The papers, reproduced", body)
 
 
 def _head(about: Mapping[str, Any]) -> str:

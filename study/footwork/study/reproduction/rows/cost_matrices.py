@@ -74,7 +74,7 @@ def _figure(bench: Workbench, one: MetricSet) -> Figure:
         f"one's (red: the dynamics metric finds them more unlike) with the {one.count} best places of each. Lines of "
         "little difference follow motions whose feet do the same.",
         alt=f"Cost matrices of {one.name} by the uniform and the dynamics metric, and their difference with picks",
-        png=cost_picture(list(matrices.items()), matrices["dynamics"] - matrices["uniform"], _picks(bench, one)),
+        svg=cost_picture(list(matrices.items()), matrices["dynamics"] - matrices["uniform"], _picks(bench, one)),
     )
 
 
