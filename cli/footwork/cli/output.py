@@ -2,6 +2,7 @@
 
 import json
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TypeGuard
@@ -11,6 +12,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 Report = Callable[[str, float], None]
+_SOON_SECONDS = 5.0
 
 
 def emit(report: Mapping[str, object], as_json: bool, title: str) -> None:
@@ -58,6 +60,18 @@ def _flattened(report: Mapping[str, object], prefix: str = "") -> Iterator[tuple
 def log(message: str) -> None:
     """Print a line for a person on stderr."""
     print(message, file=sys.stderr, flush=True)
+
+
+@contextmanager
+def compiling(tell: Callable[[str], object] = log) -> Iterator[None]:
+    """Say why it takes so long where the block, which compiles what was not compiled yet, is not over soon."""
+    said = threading.Timer(_SOON_SECONDS, tell, ["compiling for this machine: the first start takes a minute or two"])
+    said.daemon = True
+    said.start()
+    try:
+        yield
+    finally:
+        said.cancel()
 
 
 @contextmanager
