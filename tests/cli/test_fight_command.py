@@ -87,3 +87,24 @@ def test_a_bundle_without_states_is_refused(tmp_path, capsys):
     write_bundle(path, toy_bundle())
     assert main(["fight", str(path)]) == 2
     assert "no states, expected a bundle built with --graph annotated" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        (["serve", "BUNDLE", "--opponent", "nobody"], "no style 'nobody', expected balanced"),
+        (["serve", "BUNDLE", "--config", "fight.toml"], "expected --opponent too"),
+        (["serve", "BUNDLE", "--opponent", "patient", "--seed", "-1"], "expected 0 to"),
+        (["serve", "TOY", "--opponent", "patient"], "no states"),
+        (["play", "tcp://127.0.0.1:1", "--opponent", "patient", "--text"], "has opponents or none"),
+        (["play", "BUNDLE", "--fight", "--opponent", "patient"], "use --styles"),
+    ],
+)
+def test_opponents_that_cannot_be_are_refused_in_a_line(arguments, problem, bundle, tmp_path, capsys):
+    toy = tmp_path / "toy.footwork"
+    write_bundle(toy, toy_bundle())
+    places = {"BUNDLE": bundle, "TOY": str(toy)}
+    assert main([places.get(argument, argument) for argument in arguments]) != 0
+    said = capsys.readouterr().err
+    assert problem in said
+    assert "Traceback" not in said

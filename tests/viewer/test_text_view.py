@@ -1,18 +1,24 @@
 """The text view in a terminal of its own."""
 
+import io
+import math
 import os
 import pty
+import struct
 import subprocess
 import sys
 import termios
 import time
 from collections.abc import Iterator
 
+import msgspec
 import pytest
+from rich.console import Console
 
 from footwork.protocol import messages as m
 from footwork.viewer.text_map import text_map
 from footwork.viewer.text_steering import TextSteering
+from footwork.viewer.text_view import TextView
 from served import serving
 
 SECONDS = 90.0
@@ -92,3 +98,28 @@ def test_the_map_shows_where_one_went_and_looks():
     assert lines[4][6] == "·"  # a metre back is two lines down, half a metre to the right is two to the right
     assert text_map([(0.0, 0.0)], 1.5708, 9, 5).splitlines()[2][4] == "←"
     assert text_map([(0.0, 0.0)], 0.0, 41, 11).count("+") == 2
+
+
+def test_who_fights_steps_by_where_the_opponent_is_and_sees_how_both_fare():
+    fight = msgspec.structs.replace(WELCOME, behaviours=("footwork", "attack", "evade"), opponent="patient")
+    console = Console(width=80, height=30, record=True, file=io.StringIO())
+    view = TextView("tcp://127.0.0.1:1", console=console)
+    for character, x, health in ((0, 0.0, 1.0), (1, 2.0, 0.25)):
+        view._take(pose(character, x, health))
+    view._steering.take("w", fight)
+    assert view._bearing() == pytest.approx(math.pi / 2)
+    assert view._steering.wanted(1.5) == m.Keys(view_yaw=1.5, forward=1)
+    view._steering.take("j", fight)
+    assert view._steering.wanted(0.0) == (0.0, "attack")
+    console.print(view._shown(fight))
+    said = console.export_text()
+    assert "you 100 % health" in said
+    assert "patient opponent 25 % health" in said
+    assert "j attack" in said
+    assert "x" in said.split("from above")[1].split("step nearer")[0]
+
+
+def pose(character: int, x: float, health: float) -> m.Pose:
+    rest = {"acknowledged": 0, "facing": 0.0, "behaviour": 0, "clip": -1, "source_frame": 0, "transition": False}
+    root = struct.pack("<3f", x, 0.9, 0.0)
+    return m.Pose(tick=1, frame=1, character=character, root=root, rotations=bytes(16), health=health, **rest)

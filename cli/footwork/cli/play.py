@@ -31,6 +31,8 @@ def play(
     fight: Annotated[bool, Off] = False,
     styles: str = "balanced,balanced",
     seed: int = 0,
+    opponent: str | None = None,
+    config: Path | None = None,
     bundle: Path | None = None,
     start: float = 0.0,
     listen: str = "127.0.0.1:0",
@@ -54,7 +56,9 @@ def play(
         text: Play in the terminal instead of a browser.
         fight: Watch two AI fighters on a bundle that `footwork fight` takes, of --seconds, else of a minute.
         styles: How they fight, as in `footwork fight`.
-        seed: What `footwork fight` is given for the same fight.
+        seed: What `footwork fight` is given for the same fight; of an opponent, see `footwork serve`.
+        opponent: Fight an AI of this style, on a bundle that `footwork fight` takes.
+        config: Styles and rules of that fight (TOML), as in `footwork fight`.
         bundle: The bundle that a recording was made with.
         start: Where in a recording to begin, seconds; --seconds of it are shown, ten minutes at most.
         listen: Where the page is served; port 0 takes any free one. Only this machine reaches it unless told otherwise.
@@ -69,6 +73,8 @@ def play(
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
     curve = _curve(key, server_key)
     recorded = _is_recorded(target, bundle)
+    if fight and opponent is not None:
+        raise InputError("of a fight that is watched it says nothing, use --styles", "--opponent")
     if fight or recorded:
         if text or other is not None:
             raise InputError("a fight or a recording is looked at alone and in a browser", target)
@@ -81,7 +87,7 @@ def play(
         return
     files = None if text else live_view_files()
     targets = [target] if other is None else [target, other]
-    with _servers(targets, rate) as (addresses, served):
+    with _servers(targets, rate, _fight_options(opponent, config, seed)) as (addresses, served):
         if files is None:
             from footwork.viewer.text_view import TextView
 
@@ -106,14 +112,24 @@ def play(
         )
 
 
+def _fight_options(opponent: str | None, config: Path | None, seed: int) -> list[str]:
+    """What makes a server of a bundle one where people fight an AI; nothing where they do not."""
+    if opponent is None and config is None:
+        return []
+    chosen = [] if opponent is None else ["--opponent", opponent]
+    return [*chosen, *([] if config is None else ["--config", str(config)]), "--seed", str(seed)]
+
+
 @contextmanager
-def _servers(targets: Sequence[str], rate: int) -> Iterator[tuple[list[str], list[Served]]]:
+def _servers(targets: Sequence[str], rate: int, options: Sequence[str]) -> Iterator[tuple[list[str], list[Served]]]:
     """Addresses of all targets, and servers of those that are bundles."""
     with ExitStack() as held:
         addresses, served = [], []
         for target in targets:
             if not target.startswith(_ADDRESSES):
-                served.append(held.enter_context(serving(_bundle(target), rate)))
+                served.append(held.enter_context(serving(_bundle(target), rate, options)))
+            elif options:
+                raise InputError("is for bundles; a server that runs has opponents or none", "--opponent")
             addresses.append(target if target.startswith(_ADDRESSES) else served[-1].address)
         yield addresses, served
 

@@ -12,15 +12,17 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Parameter
 
 from footwork.cli.default_bundle import cache_folder
-from footwork.cli.output import emit, log
+from footwork.cli.output import compiling, emit, log
 from footwork.errors import InputError
 
 if TYPE_CHECKING:  # at run time it is imported where it is needed, so that --help loads no numerics
     from footwork.motion.bundle import Bundle
     from footwork.runtime.monitoring import Monitoring
+    from footwork.runtime.opponent import Opponent
     from footwork.runtime.server import Server
 
 Off = Parameter(negative=())
+_MOST_SEED = 2**32
 
 
 def serve(
@@ -32,6 +34,9 @@ def serve(
     lock_step: Annotated[bool, Off] = False,
     spectate: str | None = None,
     record: Path | None = None,
+    opponent: str | None = None,
+    config: Path | None = None,
+    seed: int = 0,
     curve: Path | None = None,
     metrics: str | None = None,
     watch: Annotated[bool, Off] = False,
@@ -56,6 +61,9 @@ def serve(
         lock_step: Make ticks when the clients ask for them, not by a clock.
         spectate: Where spectators may watch all characters, such as tcp://127.0.0.1:5556.
         record: Record what takes effect, for `footwork replay`, into a new file in this folder.
+        opponent: Let every character fight an AI of this style, as in `footwork fight`; for bundles of fighters.
+        config: Styles and rules of those fights (TOML), as in `footwork fight`.
+        seed: Where opponents begin and what they make of chance.
         curve: Let in only clients whose keys are allowed in this folder of `footwork keys`.
         metrics: Answer /health and /metrics (Prometheus) over HTTP here, such as 127.0.0.1:9095.
         watch: Read a bundle again whenever its file is replaced, as at SIGHUP.
@@ -74,25 +82,28 @@ def serve(
 
     if seconds is not None and not seconds > 0.0:
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
+    opponents = _opponents(opponent, config, seed)
     paths = named_bundles(bundles)
     with ExitStack() as held:
         if log_format is not None:
             held.enter_context(logging_to_stderr(log_format))
         read = _read_shared if shared else _read
-        server = Server(
-            {name: read(path) for name, path in paths.items()},
-            bind=bind,
-            rate=rate,
-            inertialise=inertialise,
-            lockstep=lock_step,
-            spectate=spectate,
-            keys=None if curve is None else KeyFolder(curve),
-            record=record,
-        )
+        tell = log if log_format is None else logging.getLogger(__name__).info
+        with compiling(tell):
+            server = Server(
+                {name: read(path) for name, path in paths.items()},
+                bind=bind,
+                rate=rate,
+                inertialise=inertialise,
+                lockstep=lock_step,
+                spectate=spectate,
+                keys=None if curve is None else KeyFolder(curve),
+                record=record,
+                opponent=opponents,
+            )
         if metrics is not None:
             held.enter_context(_monitored(server, metrics))
         reloader = held.enter_context(Reloader(server, paths, read=read, watch=watch))
-        tell = log if log_format is None else logging.getLogger(__name__).info
         for problem in take_realtime() if realtime else ():
             tell(problem)
         held.enter_context(answering_signals(server, reloader.ask))
@@ -102,6 +113,18 @@ def serve(
         end = math.inf if seconds is None else time.monotonic() + seconds
         server.run(until=lambda: time.monotonic() >= end)
     emit(server.summary(), json, f"{server.address}")
+
+
+def _opponents(style: str | None, config: Path | None, seed: int) -> Opponent | None:
+    from footwork.runtime.opponent import opponent_named
+
+    if style is None:
+        if config is not None:
+            raise InputError("is of fights, expected --opponent too", "--config")
+        return None
+    if not 0 <= seed <= _MOST_SEED:
+        raise InputError(f"{seed}, expected 0 to {_MOST_SEED}", "--seed")
+    return opponent_named(style, config, seed)
 
 
 def _monitored(server: Server, address: str) -> Monitoring:

@@ -8,11 +8,12 @@ import subprocess
 import sys
 import threading
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from footwork.cli.output import compiling
 from footwork.errors import FootworkError
 
 _STOP_SECONDS = 20.0
@@ -25,6 +26,7 @@ class Served:
     Args:
         bundle: what it serves.
         rate: frames a second.
+        options: further ones of the command.
 
     Attributes:
         address: where it listens.
@@ -34,8 +36,9 @@ class Served:
         FootworkError: where it does not start.
     """
 
-    def __init__(self, bundle: Path, rate: int) -> None:
-        command = [sys.executable, "-m", "footwork.cli.main", "serve", str(bundle), "--rate", str(rate), "--json"]
+    def __init__(self, bundle: Path, rate: int, options: Sequence[str] = ()) -> None:
+        serve = [sys.executable, "-m", "footwork.cli.main", "serve", str(bundle), "--rate", str(rate), "--json"]
+        command = [*serve, *options]
         self._process = subprocess.Popen(  # noqa: S603 our own command
             [*command, "--bind", "tcp://127.0.0.1:0"],
             stdout=subprocess.PIPE,
@@ -45,7 +48,8 @@ class Served:
         )
         self._complaints: deque[str] = deque(maxlen=50)
         try:
-            self.address = self._listening()
+            with compiling():
+                self.address = self._listening()
         except BaseException:  # an interrupt too
             self._process.kill()
             raise
@@ -93,10 +97,10 @@ class Served:
 
 
 @contextmanager
-def serving(bundle: Path, rate: int) -> Iterator[Served]:
+def serving(bundle: Path, rate: int, options: Sequence[str] = ()) -> Iterator[Served]:
     """A server for as long as the block lasts; being told to end, or losing the terminal, ends the block."""
     with _interrupted_by("SIGTERM", "SIGHUP"):
-        server = Served(bundle, rate)
+        server = Served(bundle, rate, options)
         try:
             yield server
         finally:

@@ -9,7 +9,13 @@ GRID = 5.0
 _ARROWS = "↑↖←↙↓↘→↗"
 
 
-def text_map(trail: Sequence[tuple[float, float]], facing: float, width: int, height: int) -> str:
+def text_map(
+    trail: Sequence[tuple[float, float]],
+    facing: float,
+    width: int,
+    height: int,
+    others: Sequence[tuple[float, float]] = (),
+) -> str:
     """Lines of text around the last place of a trail; +z is up and +x to the left, as yaw 0 looks along +z.
 
     Args:
@@ -17,13 +23,15 @@ def text_map(trail: Sequence[tuple[float, float]], facing: float, width: int, he
         facing: yaw, radians; positive turns left.
         width: characters in a line.
         height: lines.
+        others: places of others, shown by a cross.
     """
     x, z = trail[-1]
     rows = [[_ground(x, z, row, column, width, height) for column in range(width)] for row in range(height)]
-    for place in trail:
-        row, column = _cell(place[0] - x, place[1] - z, width, height)
-        if 0 <= row < height and 0 <= column < width:
-            rows[row][column] = "·"
+    for mark, places in (("·", trail), ("x", others)):
+        for place in places:
+            row, column = _cell(place[0] - x, place[1] - z, width, height)
+            if 0 <= row < height and 0 <= column < width:
+                rows[row][column] = mark
     row, column = _cell(0.0, 0.0, width, height)
     rows[row][column] = _ARROWS[round(facing / (math.pi / 4)) % 8]
     return "\n".join("".join(line) for line in rows)

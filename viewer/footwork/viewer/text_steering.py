@@ -5,6 +5,8 @@ import math
 from footwork.protocol import messages as m
 
 HELP = "w walk  s stop  a/d turn left/right  r run on/off  space jump  1-9 states  q end"
+FIGHT_HELP = "w step nearer  s stand  a/d turn the way to step left/right  j attack  k evade  q end"
+_FIGHT_KEYS = {"j": "attack", "k": "evade"}
 _TURN = math.radians(30.0)
 _KEYED = ("stop", "walk", "run")
 
@@ -41,11 +43,14 @@ class TextSteering:
             self._jump = True
         elif key in "123456789" and int(key) <= len(states):
             self._state = states[int(key) - 1]
+        elif key in _FIGHT_KEYS and welcome.opponent:
+            self._state = _FIGHT_KEYS[key]
         elif key == "q":
             self.ended = True
 
-    def wanted(self) -> m.Keys | tuple[float, str]:
-        """Held keys, or a heading and a state."""
+    def wanted(self, ahead: float = 0.0) -> m.Keys | tuple[float, str]:
+        """Held keys, or a heading and a state, of one who began looking along the yaw ``ahead``."""
+        yaw = ahead + self._yaw
         if self._state:
-            return self._yaw, self._state
-        return m.Keys(view_yaw=self._yaw, forward=int(self._moving), run=self._running, jump=self._jump)
+            return yaw, self._state
+        return m.Keys(view_yaw=yaw, forward=int(self._moving), run=self._running, jump=self._jump)

@@ -18,12 +18,13 @@ from footwork.protocol.errors import RefusedError
 from footwork.protocol.pose_arrays import root_of
 from footwork.viewer.terminal_keys import TerminalKeys
 from footwork.viewer.text_map import text_map
-from footwork.viewer.text_steering import HELP, TextSteering
+from footwork.viewer.text_steering import FIGHT_HELP, HELP, TextSteering
 
 _CHARACTER = 0
 _SHOWN_A_SECOND = 15
 _FASTEST = 5.0  # metres a second that fill the bar
 _TRAIL = 600
+_ABOVE = "from above, + is every 5 m"
 _COMMAND_SECONDS = 0.25
 _SILENCE_SECONDS = 2.0
 
@@ -43,6 +44,7 @@ class TextView:
         self._steering = TextSteering()
         self._trail: deque[tuple[float, float]] = deque(maxlen=_TRAIL)
         self._pose: m.Pose | None = None
+        self._rival: m.Pose | None = None
         self._speed, self._latency = 0.0, math.nan
         self._sent: dict[int, float] = {}
         self._notice, self._tick = "", -1
@@ -87,12 +89,19 @@ class TextView:
                 shown_at = now
 
     def _command(self, client: Client) -> None:
-        wanted = self._steering.wanted()
+        wanted = self._steering.wanted(self._bearing())
         if isinstance(wanted, m.Keys):
             sequence = client.keys(_CHARACTER, wanted)
         else:
             sequence = client.command(_CHARACTER, *wanted)
         self._sent[sequence] = time.monotonic()
+
+    def _bearing(self) -> float:
+        """The yaw at which the opponent is, 0 without one."""
+        if self._pose is None or self._rival is None:
+            return 0.0
+        (x, _, z), (there_x, _, there_z) = root_of(self._pose), root_of(self._rival)
+        return math.atan2(float(there_x - x), float(there_z - z))
 
     def _hear(self, client: Client, timeout: float) -> bool:
         """Take what has come; whether anything has."""
@@ -110,6 +119,9 @@ class TextView:
         return True
 
     def _take(self, pose: m.Pose) -> None:
+        if pose.character != _CHARACTER:
+            self._rival = pose
+            return
         x, _, z = (float(value) for value in root_of(pose))
         if pose.tick > self._tick:
             if self._tick >= 0:
@@ -125,8 +137,9 @@ class TextView:
             return Text("waiting for the first pose")
         width = max(20, min(self._console.width - 4, 76))
         height = max(5, self._console.height - 14)
-        above = text_map(self._trail, self._pose.facing, width, height)
-        parts = [self._told(welcome, self._pose), Panel(Text(above), title="from above, + is every 5 m"), Text(HELP)]
+        rivals = [] if self._rival is None else [(float(x), float(z)) for x, _, z in [root_of(self._rival)]]
+        above = Panel(Text(text_map(self._trail, self._pose.facing, width, height, rivals)), title=_ABOVE)
+        parts = [self._told(welcome, self._pose), above, Text(FIGHT_HELP if welcome.opponent else HELP)]
         if self._notice:
             parts.append(Text(self._notice, style="bold yellow"))
         return Group(*parts)
@@ -142,6 +155,10 @@ class TextView:
         table.add_row("position", f"{x:.2f}, {z:.2f} m")
         table.add_row("heading", f"{math.degrees(pose.facing) % 360.0:.0f} of 360 degrees")
         table.add_row(f"speed {self._speed:.1f} m/s", ProgressBar(total=_FASTEST, completed=self._speed, width=30))
+        for who, fighter in (("you", pose), (f"{welcome.opponent} opponent", self._rival)):
+            if fighter is not None and isinstance(fighter.health, float):
+                bar = ProgressBar(total=1.0, completed=max(0.0, fighter.health), width=30)
+                table.add_row(f"{who} {100.0 * fighter.health:.0f} % health", bar)
         late = 0.0 if math.isnan(self._latency) else self._latency
         table.add_row(f"key to pose {late:.0f} ms", ProgressBar(total=100.0, completed=late, width=30))
         return table

@@ -5,6 +5,7 @@ import { limb } from "./limbs.js";
 const SKIN = 0xd9a27e;
 const STANDING = 0x35d07f;
 const SHOES = { left: 0x2f6fb0, right: 0xc4552d }; // told apart, so that steps can be
+const STRUCK = 0xff3020;
 const FEET = ["foot", "toes"];
 
 export class Body {
@@ -13,6 +14,7 @@ export class Body {
     this.group = new Group();
     this.shoes = { left: matte(SHOES.left), right: matte(SHOES.right) };
     const cloth = { shirt: matte(shirt), trousers: matte(trousers), skin: matte(SKIN) };
+    this.cloth = Object.values(cloth);
     this.joints = skeleton.names.map((name, joint) => {
       const group = new Group();
       for (const solid of limb(skeleton, joint)) group.add(shadowing(new Mesh(solid, this.#material(name, cloth))));
@@ -40,6 +42,11 @@ export class Body {
     for (const [side, stands] of Object.entries({ left, right })) {
       this.shoes[side].color.setHex(stands ? STANDING : SHOES[side]);
     }
+  }
+
+  // A blow, 0 for none to 1, lights all but the shoes.
+  flash(share) {
+    for (const material of this.cloth) material.emissive.setHex(STRUCK).multiplyScalar(share);
   }
 
   dispose() {

@@ -19,7 +19,6 @@ export class Card {
     const feet = row(list, "feet");
     this.feet = { left: element("span", "foot", feet), right: element("span", "foot", feet) };
     for (const [side, foot] of Object.entries(this.feet)) foot.textContent = side;
-    this.health = element("meter", "", this.root);
     this.strip = element("canvas", "", this.root);
     this.jumped = -Infinity;
   }
@@ -32,8 +31,6 @@ export class Card {
     this.tick = pose.tick;
     put(this.behaviour, pose.absent ? "not here" : (welcome.behaviours[pose.behaviour] ?? "other"));
     this.transition.classList.toggle("now", now - this.jumped < FLASH_MS);
-    this.health.hidden = pose.health === undefined;
-    this.health.value = pose.health ?? 1;
     drawStrip(this.strip, history, welcome.behaviours);
     if (pose.absent) return;
     put(this.clip, welcome.clips[pose.clip] ?? "none");

@@ -1,4 +1,5 @@
-// The first gamepad: left stick travels, right stick turns the view, A jumps, shoulder or trigger runs.
+// The first gamepad: left stick travels, right stick turns the view, A jumps or strikes, B evades, shoulder or trigger
+// runs.
 const DEAD = 0.18;
 const TURN = 2.6; // radians a second of the right stick
 const RUN = [4, 5, 6, 7];
@@ -15,5 +16,6 @@ export function gamepad() {
     tilt: (tilt ?? 0) * TURN,
     run: RUN.some((button) => pad.buttons[button]?.pressed),
     jump: Boolean(pad.buttons[0]?.pressed),
+    evade: Boolean(pad.buttons[1]?.pressed),
   };
 }

@@ -40,6 +40,11 @@ export class Keyboard {
     };
   }
 
+  // Whether any of some keys is held, by their codes.
+  holds(...codes) {
+    return codes.some((code) => this.held.has(code));
+  }
+
   // The number of the digit that is held, 0 for none.
   get digit() {
     const code = [...this.held].find((one) => /^Digit[1-9]$/.test(one));

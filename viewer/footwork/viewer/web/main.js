@@ -1,6 +1,7 @@
 // The live view: whom it shows, what the player asks of them, and what is drawn.
 import { Camera } from "./cameras.js";
 import { put } from "./card.js";
+import { Fight } from "./fight.js";
 import { filmed } from "./film.js";
 import { gamepad } from "./gamepad.js";
 import { Graph } from "./graphs.js";
@@ -11,7 +12,7 @@ import { Quality } from "./quality.js";
 import { Series } from "./series.js";
 import { Stage } from "./stage.js";
 import { Transport } from "./transport.js";
-import { states, wishOf } from "./wish.js";
+import { fightWish, states, wishOf } from "./wish.js";
 
 const TOLD_MS = 80; // between updates of what is told beside the picture
 const at = (id) => document.getElementById(id);
@@ -26,7 +27,7 @@ const quality = new Quality(stage);
 const notices = new Notices();
 const players = titles.map((title, number) => new Player(stage, at("figures"), title, number, hear, films[number]));
 const [{ session, figure }] = players; // of whom the graphs tell
-const fight = films.length === 2 && films.every((film) => film.history.newest.health !== undefined);
+const fight = new Fight(at("fight"), players);
 let [followed] = players; // by the camera, but for fights
 for (const player of players) player.card.root.onclick = () => (followed = player);
 const frames = new Series(300);
@@ -55,12 +56,21 @@ function changeCamera() {
   put(at("camera"), `Camera: ${camera.kind}`);
 }
 
-function hear({ welcome, lost, problem }) {
+function hear({ welcome, lost, problem, rival }) {
   if (lost) notices.lose(lost);
   if (problem) notices.complain(problem);
+  if (rival) oppose(rival);
   if (!welcome) return;
   notices.find();
   at("states").replaceChildren(...states(welcome).flatMap((name, k) => [bold(k + 1), ` ${name} `]));
+}
+
+// Somebody came whom the character fights.
+function oppose(rival) {
+  players.push(new Player(stage, at("figures"), rival.title, players.length, hear, rival));
+  document.body.classList.add("fighting");
+  if (camera.kind !== "follow") changeCamera();
+  camera.distance = 4.4; // both from head to foot
 }
 
 function bold(text) {
@@ -72,7 +82,9 @@ function ask(when) {
   if (transport.replay) return;
   const pad = gamepad();
   for (const { session: one, welcome } of players) {
-    if (welcome) one.ask(wishOf(welcome, camera.yaw, keyboard, pad), when);
+    if (!welcome) continue;
+    const wish = one.rival ? fightWish(welcome, fight.bearing, keyboard, pad) : wishOf(welcome, camera.yaw, keyboard, pad);
+    one.ask(wish, when);
   }
 }
 
@@ -97,14 +109,15 @@ function turn(now) {
   else ask();
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
   for (const player of players) player.show(now, seconds);
-  camera.follow(middle(), followed.figure.facing, seconds);
+  fight.light(now);
+  camera.follow(middle(), fight.isOn ? fight.view : followed.figure.facing, seconds);
   if (quality.allows(now)) draw(now);
   before = now;
 }
 
 // What is looked at: halfway between those who fight, else whose card was clicked, while it is there.
 function middle() {
-  if (fight) return figure.place.clone().add(players[1].figure.place).multiplyScalar(0.5);
+  if (fight.isOn) return fight.middle;
   const there = [followed, ...players].find((player) => player.figure.isThere) ?? followed;
   return there.figure.place;
 }
@@ -120,10 +133,11 @@ function draw(now) {
 function tell(now) {
   toldAt = now;
   for (const player of players) player.tell();
+  fight.tell();
   for (const [graph, series] of graphs) graph.show(series);
   transport.show();
 }
 
 requestAnimationFrame(turn);
 // For whoever looks from outside, such as a test.
-globalThis.footwork = { players, session, figure, camera, frames, transport, stage };
+globalThis.footwork = { players, session, figure, camera, frames, transport, stage, fight };

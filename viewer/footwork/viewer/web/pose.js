@@ -15,6 +15,8 @@ export function poseOf(message) {
     clip: message.clip,
     sourceFrame: message.source_frame,
     transition: message.transition,
+    health: message.health,
+    stamina: message.stamina,
     root: floats(message.root),
     rotations: floats(message.rotations),
   };

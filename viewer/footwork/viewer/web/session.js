@@ -2,6 +2,7 @@
 import { Connection } from "./connection.js";
 import { History } from "./history.js";
 import { poseOf } from "./pose.js";
+import { Rival } from "./rival.js";
 import { Series } from "./series.js";
 
 const CHARACTER = 0;
@@ -9,7 +10,8 @@ const REFRESH_MS = 250; // what is held is said again this often, so that a lost
 const KEPT = 300;
 
 export class Session {
-  // hear: called with messages for a person: {lost: text} or {problem: text}, and with {welcome} when there is one.
+  // hear: called with messages for a person: {lost: text} or {problem: text}, with {welcome} when there is one, and with
+  // {rival} when there is an opponent.
   // x: where it stands at first, metres.
   constructor(path, x, hear) {
     this.x = x;
@@ -23,6 +25,8 @@ export class Session {
     this.saidAt = 0;
     this.welcome = null;
     this.poses = 0;
+    this.rival = null;
+    this.rounds = null; // won by the character and by its opponent
     this.connection = new Connection(path, (message) => this.#take(message));
   }
 
@@ -38,6 +42,7 @@ export class Session {
   #takers = {
     welcome: (message) => this.#begin(message),
     pose: (message) => this.#follow(message, performance.now()),
+    event: (message) => this.#happen(message),
     stepped: () => this.stepped?.(),
     error: ({ message }) => this.hear({ problem: message }),
     bridge: ({ message }) => this.#lose(message),
@@ -50,7 +55,24 @@ export class Session {
     this.sent.clear();
     this.said = "";
     this.hear({ welcome });
+    for (const [, opponent] of welcome.opponents ?? []) this.#meet(opponent);
     if (!welcome.spawned.includes(CHARACTER)) this.#spawn();
+  }
+
+  #happen({ kind, character, opponent }) {
+    if (kind === "spawned" && character === CHARACTER && opponent !== undefined) this.#meet(opponent);
+    if (kind === "round" && opponent >= 0) this.rounds[character === CHARACTER ? 0 : 1] += 1;
+  }
+
+  #meet(number) {
+    this.rivalNumber = number;
+    this.rounds ??= [0, 0];
+    if (this.rival) {
+      this.rival.meet(this.welcome);
+    } else {
+      this.rival = new Rival(this.welcome);
+      this.hear({ rival: this.rival });
+    }
   }
 
   // Where it was, so that a server that was started again shows it where it stood.
@@ -89,6 +111,10 @@ export class Session {
 
   #follow(message, now) {
     const pose = poseOf(message);
+    if (message.character !== CHARACTER) {
+      if (message.character === this.rivalNumber) this.rival.add(pose, now);
+      return;
+    }
     this.poses += 1;
     if (pose.tick !== this.history.newest?.tick) {
       if (this.tickAt) this.gaps.add(now - this.tickAt);

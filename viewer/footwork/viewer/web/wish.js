@@ -13,6 +13,16 @@ export function wishOf(welcome, yaw, keyboard, pad) {
   return { keys: { view_yaw: yaw, ...keyboard.keys } };
 }
 
+// The wish of one who fights; yaw: where the opponent is.
+export function fightWish(welcome, yaw, keyboard, pad) {
+  const keys = { ...keyboard.keys, jump: false };
+  if (keyboard.holds("KeyJ", "Space") || pad?.jump) return outright(heading(yaw, keys), "attack");
+  if (keyboard.holds("KeyK") || pad?.evade) return outright(heading(yaw, keys), "evade");
+  const [footwork] = welcome.behaviours;
+  if (pad?.push > 0) return outright(yaw + Math.atan2(-pad.x, pad.y), footwork, pad.push);
+  return { keys: { view_yaw: yaw, ...keys } };
+}
+
 function ofPad(welcome, yaw, pad) {
   const travel = yaw + Math.atan2(-pad.x, pad.y);
   if (pad.jump) return outright(travel, "jump");
