@@ -173,6 +173,19 @@ def test_a_blob_whose_checksum_fits_still_cannot_hold_what_cannot_be():
     assert refused > 30
 
 
+@pytest.mark.parametrize("ticks", [-1, 1 << 30])
+def test_a_decision_that_would_hold_for_ever_is_no_memory_of_a_controllers(ticks):
+    simulation = Simulation(BUNDLE, 1)
+    slots = [simulation.spawn(0.0, 0.0, 0.0)]
+    (held,), before = simulation._controller.memory(1), simulation.digest()
+    held[0] = ticks
+    blob = simulation.snapshot(slots)
+    held[0] = 0
+    with pytest.raises(InputError, match="no character has"):
+        simulation.restore(blob, slots)
+    assert simulation.digest() == before
+
+
 def forge(simulation: Simulation, rows: bytes) -> bytes:
     """A blob of the one character with other rows and the right checksum."""
     blob = simulation.snapshot([0])

@@ -73,9 +73,11 @@ def test_some_characters_go_on_while_the_others_wait():
 
 
 def test_a_move_that_cannot_be_made_is_told():
-    steered = crowd(SteeringController(BUNDLE.graph, BUNDLE.table("steering")))
+    controller = SteeringController(BUNDLE.graph, BUNDLE.table("steering"))
+    steered = crowd(controller)
     assert isinstance(steered._ticks, SteeredTicks)
     nowhere = frozen(np.full_like(BUNDLE.graph.displacement, np.nan), np.float32)  # as the kernel is compiled for
-    steered._ticks._policy = steered._ticks._policy._replace(displacement=nowhere)
+    controller.policy = controller.policy._replace(displacement=nowhere)
+    steered._ticks = SteeredTicks(controller, steered.world, steered.orders)
     with pytest.raises(WrongMove, match=r"character 0 at node .* not finite"):
         steered.play(1, 1)

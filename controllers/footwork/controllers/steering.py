@@ -1,5 +1,7 @@
 """Steering: the edge and the extra turn that a policy table makes best for every character, by one-step lookahead."""
 
+from collections.abc import Iterable
+
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -247,6 +249,10 @@ class SteeringController:
         """For how many ticks the last decision of each slot still holds.  # (capacity or more,)"""
         self._make_room(capacity)
         return (self._held,)
+
+    def sound(self, slots: Iterable[int]) -> bool:
+        """Whether what memory holds of some slots can be."""
+        return all(0 <= self._held.item(slot) < self.policy.segment_ticks for slot in slots)
 
     def choose(self, situations: Situations, moves: Moves) -> None:
         """Write the best action of each of C characters into ``moves``.

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -32,14 +33,19 @@ class Schedule(NamedTuple):
     speed: NDArray[np.float64]
 
 
+_KINDS = (np.int64, np.int64, np.float64, np.int64, np.int64, np.float64)
+_ROW = np.dtype(list(zip(Schedule._fields, _KINDS, strict=True)))
+
+
 def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
     """A schedule of (tick, slot, command), those of one tick in the order given."""
-    ordered = sorted(given, key=lambda each: each[0])
-    whole = [(tick, slot, command.behaviour, command.one_shot) for tick, slot, command in ordered]
-    numbers = np.array(whole, dtype=np.int64).reshape(-1, 4).T.copy()
-    heading = np.array([command.heading for _, _, command in ordered], dtype=np.float64)
-    speed = np.array([command.asked_speed for _, _, command in ordered], dtype=np.float64)
-    return Schedule(numbers[0], numbers[1], heading, numbers[2], numbers[3], speed)
+    ordered = sorted(given, key=itemgetter(0))
+    rows = [
+        (tick, slot, command.heading, command.behaviour, command.one_shot, command.asked_speed)
+        for tick, slot, command in ordered
+    ]
+    table = np.array(rows, dtype=_ROW)
+    return Schedule(*(table[name] for name in Schedule._fields))
 
 
 def require_within(ticks: int, given: Iterable[tuple[int, int, Command]]) -> None:

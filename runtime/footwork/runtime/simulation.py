@@ -18,6 +18,7 @@ from footwork.runtime import recording as r
 from footwork.runtime.pose_frames import PoseFrames
 from footwork.runtime.recorder import Recorder, state_digest
 from footwork.runtime.schedule import NOTHING, require_within, rows_of, schedule_of
+from footwork.runtime.shown_actions import ShownActions
 from footwork.runtime.snapshot import Snapshots
 from footwork.runtime.ticks import ticks_of
 from footwork.runtime.warm import warm_kernels
@@ -74,8 +75,7 @@ class Simulation:
         self.vocabulary = Vocabulary(graph.behaviours, self.behaviours, self.speeds, one_shot=self._one_shot, rest=rest)
         self.orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
-        self._shown_as = self._numbering()
-        self._clip_of, self._frame_of = graph.nearest_source
+        self._actions = ShownActions(self.world, self.behaviours)
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
@@ -83,12 +83,6 @@ class Simulation:
         self._snapshots = Snapshots(self.world, self.orders, memory, belongs_to, sound)
         self._recorder: Recorder | None = None
         self._noted = False
-
-    def _numbering(self) -> NDArray[np.int32]:
-        """The number in ``behaviours`` of each of the graph's; the last entry stands for none.  # (B + 1,)"""
-        graph = self.world.graph
-        numbers = [self.behaviours.index(name) if name in self.behaviours else -1 for name in graph.behaviours]
-        return np.array([*numbers, -1], dtype=np.int32)
 
     @property
     def full(self) -> bool:
@@ -272,35 +266,30 @@ class Simulation:
     @property
     def behaviour(self) -> NDArray[np.int32]:
         """What each slot's character does in this tick, an index into ``behaviours`` or -1.  # (capacity,)"""
-        self._note_actions()
-        return self._behaviour
+        return self._noted_actions().behaviour
 
     @property
     def transition(self) -> NDArray[np.bool_]:
         """Whether each one's step to this tick left the captured order.  # (capacity,)"""
-        self._note_actions()
-        return self._transition
+        return self._noted_actions().transition
 
-    def _note_actions(self) -> None:
+    def _noted_actions(self) -> ShownActions:
         """What every character does in this tick; the same in all of its frames, and looked up once it is asked for."""
-        if self._noted:
-            return
-        graph, node = self.world.graph, self.world.node
-        self._behaviour = self._shown_as[graph.behaviour[node]]
-        self._clip, self._source_frame = self._clip_of[node], self._frame_of[node]
-        self._transition = ~self.world.natural
-        self._noted = True
+        if not self._noted:
+            self._actions.note()
+            self._noted = True
+        return self._actions
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
         root, rotations = self.world.show(fraction)
-        self._note_actions()
+        actions = self._noted_actions()
         return PoseFrames(
             root=root,
             rotations=rotations,
             facing=self.world.place[:, 2],
-            behaviour=self._behaviour,
-            clip=self._clip,
-            source_frame=self._source_frame,
-            transition=self._transition,
+            behaviour=actions.behaviour,
+            clip=actions.clip,
+            source_frame=actions.source_frame,
+            transition=actions.transition,
         )

@@ -16,10 +16,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.controllers.orders import LATCH_TICKS, InForce, Orders
+from footwork.controllers.orders import LATCH_TICKS, Orders
 from footwork.errors import InputError
-from footwork.runtime.characters import Characters
 from footwork.runtime.foot_lock import STEP_TICKS
+from footwork.runtime.kept import keep
 from footwork.runtime.world import World
 
 MAGIC, VERSION = b"FWSN", 1
@@ -29,9 +29,9 @@ _BEYOND = 1e9  # no number that is remembered is as large, metres, radians or se
 
 
 @numba.njit(cache=True, nogil=True)
-def _take(rows, slots, blob):
+def _take(kept, slots, blob):
     """Copy the rows of slots out of arrays of bytes, row by row, array by array."""
-    at = 0
+    rows, at = kept.parts, 0
     for who in slots:
         for array in rows:
             for k in range(array.shape[1]):
@@ -40,9 +40,9 @@ def _take(rows, slots, blob):
 
 
 @numba.njit(cache=True, nogil=True)
-def _put(rows, slots, blob):
+def _put(kept, slots, blob):
     """The inverse of ``_take``."""
-    at = 0
+    rows, at = kept.parts, 0
     for who in slots:
         for array in rows:
             for k in range(array.shape[1]):
@@ -76,8 +76,9 @@ def _speeds(numbers):
 
 
 @numba.njit(cache=True, nogil=True)
-def _sound(slots, characters: Characters, in_force: InForce, truths, nodes, edges, behaviours, settle_ticks):
+def _sound(slots, remembered):
     """Whether what is remembered of characters can be: numbers that index are in range, the others bounded."""
+    characters, in_force, truths, nodes, edges, behaviours, settle_ticks = remembered.parts
     node, place, edge, _, glide, ticks_left, offsets, roots, _, anchor, slip, stride = characters
     heading, lasting, asked, latched, held, latch_left, _, speed, asked_speed = in_force
     sound = True
@@ -95,6 +96,14 @@ def _sound(slots, characters: Characters, in_force: InForce, truths, nodes, edge
         sound &= _bounded(offsets[one]) and _bounded(roots[one])
         sound &= _bounded(anchor[one]) and _bounded(slip[one])
     return sound
+
+
+@numba.njit(cache=True, nogil=True)
+def _exchange(kept, remembered, slots, blob, before):
+    """Take the rows of slots out and put others in their place; whether these can be."""
+    _take(kept, slots, before)
+    _put(kept, slots, blob)
+    return _sound(slots, remembered)
 
 
 def _as_bytes(array: NDArray) -> NDArray[np.uint8]:
@@ -123,14 +132,14 @@ class Snapshots:
     ) -> None:
         arrays = [*world.characters, *orders.in_force, *memory]
         self._memory_sound = sound or (lambda slots: True)
-        self._rows = tuple(_as_bytes(array) for array in arrays if array[:1].size)
-        self._row_bytes = sum(rows.shape[1] for rows in self._rows)
+        rows = tuple(_as_bytes(array) for array in arrays if array[:1].size)
+        self._rows, self._row_bytes = keep(rows), sum(row.shape[1] for row in rows)
         layout: list[Any] = [(array.dtype.str, array.shape[1:]) for array in arrays]
         self._key = hashlib.blake2b(f"{belongs_to} {layout}".encode(), digest_size=8).digest()
         graph = world.graph
         sizes = graph.node_count, graph.edge_count, len(graph.behaviours), world.smoothing.settle_ticks
         truths = tuple(_as_bytes(array) for array in arrays if array.dtype == np.bool_)
-        self._checked = world.characters, orders.in_force, truths, *sizes
+        self._remembered = keep((world.characters, orders.in_force, truths, *sizes))
 
     @property
     def row_bytes(self) -> int:
@@ -158,10 +167,11 @@ class Snapshots:
                 cannot be; nothing has changed then.
         """
         tick = self._checked_header(blob, len(slots))
-        before = self.rows(slots)
-        _put(self._rows, slots, np.frombuffer(blob, np.uint8, offset=_HEADER.size))
-        if not (_sound(slots, *self._checked) and self._memory_sound(slots)):
-            _put(self._rows, slots, np.frombuffer(before, np.uint8))
+        rows = np.frombuffer(blob, np.uint8, offset=_HEADER.size)
+        before = np.empty_like(rows)
+        sound = _exchange(self._rows, self._remembered, slots, rows, before)
+        if not (sound and self._memory_sound(slots)):
+            _put(self._rows, slots, before)
             raise InputError("holds numbers that no character has", "snapshot")
         return tick
 

@@ -7,30 +7,17 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.controllers.orders import InForce, Orders, ask, put_in_force
-from footwork.controllers.policy import Policy
+from footwork.controllers.orders import Orders, ask, put_in_force
 from footwork.controllers.steering import SteeringController, steer
 from footwork.motion.moves import no_moves
-from footwork.runtime.characters import Characters, Motion, Smoothing
+from footwork.runtime.kept import Kept, keep
 from footwork.runtime.schedule import Schedule
 from footwork.runtime.ticking import advance, show_characters
 from footwork.runtime.world import World
 
 
 @numba.njit(cache=True, nogil=True)
-def make_ticks(
-    slots: NDArray,
-    schedule: Schedule,
-    behaviour: NDArray,
-    policy: Policy,
-    held: NDArray,
-    in_force: InForce,
-    moves: tuple[NDArray, NDArray, NDArray, NDArray, NDArray],
-    characters: Characters,
-    motion: Motion,
-    smoothing: Smoothing,
-    poses: NDArray,
-) -> int:
+def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: Kept, poses: NDArray) -> int:
     """Take characters through T ticks and write their poses at F moments of each.
 
     Returns -1, or the first character whose move cannot be made: ticks end before that one.
@@ -38,16 +25,13 @@ def make_ticks(
     Args:
         slots: rows of the characters.  # (n,)
         schedule: commands to them.
-        behaviour: of the graph.  # (N,)
-        policy: what they are steered by.
-        held: SteeringController.memory.
-        in_force: the commands in force.
-        moves: room to work in: the arrays of Moves, a row for each slot.
-        characters: what the world remembers.
-        motion: what they move on.
-        smoothing: how they are shown.
+        steering: the graph's behaviour by node, the Policy, SteeringController.memory, the commands InForce, and room
+            to work in: the arrays of Moves, a row for each slot.
+        remembered: World.remembered.
         poses: written: place of joint 0, then local rotations joint by joint.  # (T, F, n, 3 + 4 J) float32
     """
+    behaviour, policy, held, in_force, moves = steering.parts
+    characters, motion, smoothing = remembered.parts
     edge, target, displacement, adjustment, natural = moves
     when, who, ahead, lasting, once, pace = schedule
     node, place, heading = characters.node, characters.place, in_force.heading
@@ -118,12 +102,11 @@ class SteeredTicks:
     """
 
     def __init__(self, controller: SteeringController, world: World, orders: Orders) -> None:
-        self._behaviour, self._policy = world.graph.behaviour, controller.policy
-        (self._held,) = controller.memory(world.capacity)
-        self._in_force = orders.in_force
-        self._moves = moves = no_moves(world.capacity)
-        self._arrays = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
-        self._world, self._remembered = world, (world.characters, world.motion, world.smoothing)
+        (held,) = controller.memory(world.capacity)
+        self._world, self._moves = world, no_moves(world.capacity)
+        moves = self._moves
+        room = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
+        self._steering = keep((world.graph.behaviour, controller.policy, held, orders.in_force, room))
 
     def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
         """Take the characters of some slots, in rising order, through the ticks of ``poses``; see ``make_ticks``.
@@ -131,16 +114,6 @@ class SteeredTicks:
         Raises:
             WrongMove: where the table's move cannot be made in this world: the ticks before it have been made.
         """
-        wrong = make_ticks(
-            slots,
-            schedule,
-            self._behaviour,
-            self._policy,
-            self._held,
-            self._in_force,
-            self._arrays,
-            *self._remembered,
-            poses,
-        )
+        wrong = make_ticks(slots, schedule, self._steering, self._world.remembered, poses)
         if wrong >= 0:
             self._world.raise_wrong_move(wrong, self._moves)

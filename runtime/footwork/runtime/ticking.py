@@ -8,6 +8,7 @@ from footwork.runtime.characters import Characters, Motion, Smoothing
 from footwork.runtime.foot_lock import update_locks
 from footwork.runtime.held_feet import hold_feet
 from footwork.runtime.inertialisation import decay, take_jumps
+from footwork.runtime.kept import Kept
 from footwork.runtime.moving import first_wrong_move, make_moves
 from footwork.runtime.posing import pose
 
@@ -141,3 +142,25 @@ def show_characters(
             shown_root,
             shown_rotations,
         )
+
+
+@numba.njit(cache=True, nogil=True)
+def advance_kept(
+    slots: NDArray,
+    edge: NDArray,
+    target: NDArray,
+    displacement: NDArray,
+    adjustment: NDArray,
+    natural: NDArray,
+    remembered: Kept,
+) -> int:
+    """``advance`` of the characters, the motion and the smoothing that were kept."""
+    characters, motion, smoothing = remembered.parts
+    return advance(slots, edge, target, displacement, adjustment, natural, characters, motion, smoothing)
+
+
+@numba.njit(cache=True, nogil=True)
+def show_kept(slots: NDArray, fraction: float, remembered: Kept, shown_root: NDArray, shown_rotations: NDArray) -> None:
+    """``show_characters`` of the characters, the motion and the smoothing that were kept."""
+    characters, motion, smoothing = remembered.parts
+    show_characters(slots, fraction, characters, motion, smoothing, shown_root, shown_rotations)

@@ -11,9 +11,10 @@ from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import LEAP, Moves
 from footwork.runtime.characters import Motion, motion_of, no_characters, smoothing
 from footwork.runtime.foot_lock import move_locks
+from footwork.runtime.kept import keep
 from footwork.runtime.motion_rows import VELOCITY
 from footwork.runtime.rotation_kernels import turned
-from footwork.runtime.ticking import advance, show_characters
+from footwork.runtime.ticking import advance_kept, show_kept
 from footwork.runtime.world_errors import NoSuchCharacter, WorldError, WorldFull, WrongMove
 
 HALFLIFE = 0.1
@@ -40,6 +41,7 @@ class World:
         characters: all that is remembered of them.
         motion: what they move on.
         smoothing: how they are shown.
+        remembered: these three, kept for kernels.
         node: where each is on the graph.  # (capacity,) int32
         place: planar place (x, z, yaw), metres and radians, yaw within -pi..pi.  # (capacity, 3) float64
         edge: the edge last taken, ``LEAP`` where it was none.  # (capacity,) int32
@@ -71,6 +73,7 @@ class World:
         self.motion = motion_of(graph) if motion is None else motion
         self.smoothing = smoothing(inertialise, foot_lock, halflife)
         self.characters = no_characters(capacity, joints, len(self.motion.legs))
+        self.remembered = keep((self.characters, self.motion, self.smoothing))
         self.node, self.place = self.characters.node, self.characters.place
         self.edge, self.natural = self.characters.edge, self.characters.natural
         self._shown_root = np.zeros((capacity, 3), dtype=np.float32)
@@ -154,16 +157,14 @@ class World:
             WrongMove: when an edge does not leave from its character's node or lead to its target, and for a target
                 or a place that is none; nobody has moved then.
         """
-        wrong = advance(
+        wrong = advance_kept(
             self.slots if slots is None else slots,
             moves.edge,
             moves.target,
             moves.displacement,
             moves.adjustment,
             moves.natural,
-            self.characters,
-            self.motion,
-            self.smoothing,
+            self.remembered,
         )
         if wrong >= 0:
             self.raise_wrong_move(wrong, moves)
@@ -181,7 +182,7 @@ class World:
         if not 0.0 < fraction <= 1.0:
             raise WorldError(f"fraction is {fraction}, expected above 0 and at most 1")
         shown = self._shown_root, self._shown_rotations
-        show_characters(self.slots, fraction, self.characters, self.motion, self.smoothing, *shown)
+        show_kept(self.slots, fraction, self.remembered, *shown)
         return shown
 
     def require(self, slot: int) -> None:
