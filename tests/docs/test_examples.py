@@ -1,4 +1,7 @@
-"""Every ``sh`` and ``python`` block of the documentation runs as it stands, in order, a folder for each document."""
+"""Every ``sh`` and ``python`` block of the documentation runs as it stands, in order, a folder for each document.
+
+A document that begins with ``<!-- runs after OTHER.md -->`` runs in the folder of that one, with what it made.
+"""
 
 import os
 import re
@@ -12,6 +15,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+AFTER = re.compile(r"\A<!-- runs after (\S+) -->$", re.MULTILINE)
 BLOCK = re.compile(r"^```(sh|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 RUN = {"sh": ["bash", "-euo", "pipefail", "-c"], "python": [sys.executable, "-c"]}
 
@@ -21,12 +25,25 @@ def environment(cache: Path) -> dict[str, str]:
     return os.environ | {"PATH": path, "XDG_CACHE_HOME": str(cache), "EXAMPLES": str(ROOT / "examples")}
 
 
+def chains() -> list[list[Path]]:
+    """Documents that run one after the other."""
+    found = [[document] for document in DOCUMENTS]
+    for document in DOCUMENTS:
+        if after := AFTER.search(document.read_text()):
+            own = next(chain for chain in found if chain[0] == document)
+            other = next(chain for chain in found if chain[-1].name == after[1])
+            other.extend(own)
+            found.remove(own)
+    return found
+
+
 @pytest.mark.timeout(500)
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
-def test_the_examples_of_a_document_run(document, tmp_path):
-    for language, code in BLOCK.findall(document.read_text()):
-        status, said = run([*RUN[language], code], tmp_path)
-        assert status == 0, f"{document.name}:\n{code}\n{said}"
+@pytest.mark.parametrize("documents", chains(), ids=lambda chain: chain[0].name)
+def test_the_examples_of_documents_run(documents, tmp_path):
+    for document in documents:
+        for language, code in BLOCK.findall(document.read_text()):
+            status, said = run([*RUN[language], code], tmp_path)
+            assert status == 0, f"{document.name}:\n{code}\n{said}"
 
 
 def run(command: list[str], folder: Path) -> tuple[int, str]:
