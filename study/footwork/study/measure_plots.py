@@ -34,7 +34,7 @@ def ways_plot(graph: MotionGraph, path: str | os.PathLike, frames: int | None = 
     ticks = ticks_between(graph.edge_start, graph.target, shown, shown)
     figure, axes = pyplot().subplots(figsize=(7.6, 7.0))
     seconds = np.ma.masked_equal(ticks, UNREACHED) * TICK
-    image = axes.imshow(seconds, cmap=ramp(), extent=(0, len(captured), len(captured), 0))
+    image = axes.imshow(seconds, cmap=ramp(), interpolation="none", extent=(0, len(captured), len(captured), 0))
     for start in np.flatnonzero(np.diff(graph.clip[captured])) + 1:
         axes.axvline(start, color=MARKER["card"], lw=0.5)
         axes.axhline(start, color=MARKER["card"], lw=0.5)

@@ -128,7 +128,7 @@ def _svg(figure: Any) -> str:
     plt, out = pyplot(), StringIO()
     salt = str(len(figure.axes)) + "".join(axes.get_title() + axes.get_ylabel() for axes in figure.axes)
     with plt.rc_context({"svg.fonttype": "none", "svg.hashsalt": salt}):
-        figure.savefig(out, format="svg", transparent=True, dpi=160, metadata={"Date": None})
+        figure.savefig(out, format="svg", transparent=True, dpi=110, metadata={"Date": None})
     plt.close(figure)
     svg = out.getvalue()
     for left_out in _LEFT_OUT:
