@@ -256,6 +256,15 @@ def test_a_recording_is_shown_on_a_timeline_with_its_trail(browser, server, page
     write_bundle(bundle, server.bundle)
     record_walk(server.bundle, recorded)
     playing = played(recorded, "--bundle", bundle)
+    try:
+        look_at_recording(playing, browser)
+        playing.terminate()
+        assert playing.wait(SECONDS) == 0
+    finally:
+        playing.kill()
+
+
+def look_at_recording(playing: subprocess.Popen[str], browser: Any) -> None:
     lines = [playing.stderr.readline() for _ in range(2)]  # type: ignore[union-attr]
     assert "from 0.0 to 4.0 s of 4.0 s" in lines[0]
     page = browser.new_page(viewport=PAGE)
@@ -270,8 +279,6 @@ def test_a_recording_is_shown_on_a_timeline_with_its_trail(browser, server, page
     page.fill("#when", "0.1")
     wait_until(page, "footwork.players[1].figure.shown.absent === true && document.querySelector('.absent') !== null")
     page.close()
-    playing.terminate()
-    assert playing.wait(SECONDS) == 0
 
 
 def record_walk(bundle: Bundle, path: Path) -> None:

@@ -24,7 +24,8 @@ def emit(report: Mapping[str, object], as_json: bool, title: str) -> None:
     console.print(_fields(report, title))
     for name, value in report.items():
         if _is_rows(value):
-            console.print(_rows(value, name))
+            across, down = _rows(value, name), _rows(value, name, lying=True)
+            console.print(across if _width(across, console) <= console.width else down)
 
 
 def _is_rows(value: object) -> TypeGuard[Sequence[Mapping[str, object]]]:
@@ -38,14 +39,24 @@ def _fields(report: Mapping[str, object], title: str) -> Table:
     return table
 
 
-def _rows(rows: Sequence[Mapping[str, object]], title: str) -> Table:
-    """A table of a list of records, one a line, without what is nested inside them: --json has it all."""
+def _rows(rows: Sequence[Mapping[str, object]], title: str, *, lying: bool = False) -> Table:
+    """A table of a list of records, one a line, without what is nested inside them: --json has it all.
+
+    A lying table has a column for each record instead, which is narrower where a record has many fields.
+    """
     lines = [dict(_flattened({k: v for k, v in row.items() if not isinstance(v, Mapping)})) for row in rows]
     names = list(dict.fromkeys(name for line in lines for name in line))
-    table = Table(*names, title=title, title_justify="left")
-    for line in lines:
-        table.add_row(*(line.get(name, "") for name in names))
+    cells = [names, *([line.get(name, "") for name in names] for line in lines)]
+    head, *body = [*zip(*cells, strict=True)] if lying else cells
+    table = Table(*head, title=title, title_justify="left")
+    for line in body:
+        table.add_row(*line)
     return table
+
+
+def _width(table: Table, console: Console) -> int:
+    """Columns of the terminal that a table needs without breaking any cell."""
+    return console.measure(table, options=console.options.update(max_width=10_000)).maximum
 
 
 def _flattened(report: Mapping[str, object], prefix: str = "") -> Iterator[tuple[str, str]]:
