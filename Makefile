@@ -18,7 +18,7 @@ $(VENV)/made:
 	@touch $@
 
 $(VENV)/installed: $(VENV)/made pyproject.toml
-	$(INSTALL) '.[view]'
+	$(INSTALL) '.[view,plots]'
 	@touch $@
 
 $(VENV)/developing: $(VENV)/made pyproject.toml
