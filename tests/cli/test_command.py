@@ -118,8 +118,17 @@ def test_score_replays_traces(reported, bundle, tmp_path):
     assert len(report["traces"]) == 1
 
 
-def test_demo_steers_over_a_socket(tmp_path):
-    report = json.loads(footwork("demo", "--headless", "--seconds", "3", "--cache", tmp_path, "--json").stdout)
+@pytest.fixture(scope="module")
+def demo(captures, tmp_path_factory):
+    """How a demo on those captures is asked for, where it keeps their bundle, and what it reported."""
+    folder, labels = captures
+    cache = tmp_path_factory.mktemp("cache")
+    asked = "demo", "--headless", "--json", "--cache", cache, "--motions", folder, "--labels", labels, "--seconds"
+    return asked, cache, json.loads(footwork(*asked, "3").stdout)
+
+
+def test_demo_steers_over_a_socket(demo):
+    _, _, report = demo
     fields = {"frames", "nodes", "edges", "scc_fraction", "ticks", "late_ticks"}
     assert set(report) >= fields | {"tick_us", "command_to_pose_ms", "heading_error_deg"}
     assert report["ticks"] >= 85
@@ -127,14 +136,12 @@ def test_demo_steers_over_a_socket(tmp_path):
     assert 0.0 < report["command_to_pose_ms"]["p50"] < 1000.0
 
 
-def test_a_damaged_bundle_in_the_cache_is_built_anew(captures, tmp_path):
-    folder, labels = captures
-    demo = "demo", "--headless", "--seconds", "0.5", "--cache", tmp_path, "--motions", folder, "--labels", labels
-    footwork(*demo)
-    [kept] = tmp_path.glob("*.footwork")
+def test_a_damaged_bundle_in_the_cache_is_built_anew(demo):
+    asked, cache, _ = demo
+    [kept] = cache.glob("*.footwork")
     whole = kept.read_bytes()
     kept.write_bytes(whole[:-7])
-    assert "building anew" in footwork(*demo).stderr
+    assert "building anew" in footwork(*asked, "0.5").stderr
     assert kept.read_bytes() == whole
 
 

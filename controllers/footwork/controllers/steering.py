@@ -11,6 +11,7 @@ from footwork.controllers.policy import Policy
 from footwork.controllers.questions import require_indices
 from footwork.errors import InputError
 from footwork.motion.actions import Actions, actions_of, onward_edges
+from footwork.motion.arrays import frozen
 from footwork.motion.coded_values import CodedValues
 from footwork.motion.graph import MotionGraph
 from footwork.motion.lookahead import best_action, best_listed_action
@@ -201,7 +202,7 @@ class SteeringController:
             onward=onward_edges(graph),
             segment_ticks=table.task.segment_ticks,
             exact=exact_facing,
-            pivot=np.zeros((graph.node_count, 2)) if warp is None else warp.pivot,
+            pivot=frozen(np.zeros((graph.node_count, 2)), float) if warp is None else warp.pivot,
             displacement=graph.displacement,
             natural=graph.natural,
         )

@@ -35,7 +35,7 @@ def backed_up(
         player: how commands change; None where they never do.
         spans: stretches of nodes to share out to threads, as (begin, end).
     """
-    following, headings = values, task.headings
+    following, headings = np.ascontiguousarray(values, dtype=np.float64), task.headings
     holding = None if player is None else holding_speed(player, task.requests)
     best, best_onward = np.zeros(values.shape, np.int32), np.zeros(values.shape, np.int32)
     with ThreadPoolExecutor(THREADS) as pool:

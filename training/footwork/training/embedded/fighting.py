@@ -5,6 +5,7 @@ Labels are those of a state-annotated graph: locomotion, attack, evade. Every cl
 
 import math
 from collections.abc import Callable
+from functools import cache
 
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
@@ -22,12 +23,18 @@ Written = tuple[Planner, list[tuple[float, Move]]]
 
 def fighting_clips() -> list[Clip]:
     """The clips for fighting, at 30 Hz on the common body, labelled, with the contacts they were planned with."""
+    return list(_animated())
+
+
+@cache
+def _animated() -> tuple[Clip, ...]:
+    """They take a second to make, and are asked for again and again."""
     body = default_body()
     clips = []
     for name, write in _clips().items():
         planner, moves = write()
         clips.append(animate(name, planner.plan(), body, strikes.gesture_of(moves, planner.now)))
-    return clips
+    return tuple(clips)
 
 
 def _clips() -> dict[str, Callable[[], Written]]:

@@ -5,6 +5,7 @@ them holds together.
 """
 
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -24,12 +25,18 @@ Phrase = tuple[int, Pace, float]  # steps, pace, turn of each step in degrees
 
 def embedded_clips() -> list[Clip]:
     """The clips for steering, at 30 Hz on the common body, labelled, with the contacts they were planned with."""
+    return list(_animated())
+
+
+@cache
+def _animated() -> tuple[Clip, ...]:
+    """They take a second to make, and are asked for again and again."""
     body = default_body()
     clips = []
     for name, write in _clips().items():
         planner, gesture = write()
         clips.append(animate(name, planner.plan(), body, gesture))
-    return clips
+    return tuple(clips)
 
 
 def _clips() -> dict[str, Callable[[], Written]]:
