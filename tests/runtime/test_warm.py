@@ -3,6 +3,7 @@ from numba.core.dispatcher import Dispatcher
 
 from footwork.controllers import orders, steering
 from footwork.motion import lookahead, moves
+from footwork.motion.kept import keep
 from footwork.runtime import (
     foot_lock,
     held_feet,
@@ -14,7 +15,6 @@ from footwork.runtime import (
     steered_ticks,
     ticking,
 )
-from footwork.runtime.kept import keep
 from footwork.runtime.warm import warm_kernels
 from toy_bundle import toy_bundle
 

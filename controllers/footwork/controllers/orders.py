@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import NONE, Command
+from footwork.motion.kept import Kept, keep
 from footwork.motion.requests import ANY_SPEED
 
 LATCH_TICKS = 30
@@ -54,6 +55,11 @@ def put_in_force(
     if one_shot != NONE and one_shot != held and one_shot != shown:
         in_force.latched[slot] = one_shot
         in_force.ticks_left[slot], in_force.entered[slot] = LATCH_TICKS, False
+
+
+@numba.njit(cache=True, nogil=True)
+def _put_in_kept(slot: int, heading: float, behaviour: int, one_shot: int, speed: float, shown: int, kept: Kept):
+    put_in_force(slot, heading, behaviour, one_shot, speed, shown, kept.parts)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -108,6 +114,7 @@ class Orders:
             speed=np.full(capacity, ANY_SPEED),
             asked_speed=np.full(capacity, ANY_SPEED),
         )
+        self._kept = keep(self.in_force)
         self.heading, self.asked = self.in_force.heading, self.in_force.asked
         self._slots = np.arange(capacity)
 
@@ -133,7 +140,7 @@ class Orders:
             shown: index of the behaviour that the character shows now, -1 for none.
         """
         heading, speed = float(command.heading), command.asked_speed
-        put_in_force(slot, heading, command.behaviour, command.one_shot, speed, shown, self.in_force)
+        _put_in_kept(slot, heading, command.behaviour, command.one_shot, speed, shown, self._kept)
 
     def at_tick(self, shown: NDArray) -> NDArray[np.int32]:
         """The behaviour to ask for at this tick, once a tick before edges are chosen.

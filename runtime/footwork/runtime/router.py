@@ -80,6 +80,7 @@ class Router:
         self.connections = Connections(self._socket, most)
         self._poller = self._watching()
         self.bytes_in = self.bytes_out = 0
+        self._unread = False  # whether there may be more of a message than was read
         try:
             self._socket.bind(bind)
         except zmq.ZMQError as error:
@@ -143,18 +144,18 @@ class Router:
 
     def receive(self) -> list[bytes] | None:
         """The next message's first frames, the peer's name before all; None where there is none for now."""
-        if not self._pass_over():
+        if self._unread and not self._pass_over():
             return None
-        try:
-            frames = [self._socket.recv(zmq.NOBLOCK)]
-        except zmq.Again:
+        if not int(self._socket.get(zmq.EVENTS)) & zmq.POLLIN:
             return None
+        frames = [self._socket.recv(zmq.NOBLOCK)]
         if not self.connections.knows(frames[0]):
             data = self._socket.recv(zmq.NOBLOCK, copy=False)
             self.connections.meet(frames[0], data)
             frames.append(data.bytes)
         while len(frames) < _FRAMES and self._socket.get(zmq.RCVMORE):
             frames.append(self._socket.recv(zmq.NOBLOCK))  # all of a message is there once its first frame is
+        self._unread = len(frames) == _FRAMES
         self.bytes_in += len(frames[1])
         return frames
 
@@ -162,6 +163,7 @@ class Router:
         """Pass over what is left of a message with too many frames; whether all of it is."""
         for _ in range(_PASSED_OVER):
             if not self._socket.get(zmq.RCVMORE):
+                self._unread = False
                 return True
             self._socket.recv(zmq.NOBLOCK)
         return False
@@ -169,7 +171,8 @@ class Router:
     def send(self, peer: bytes, data: bytes) -> Sent:
         """Hand a message to the transport; where the peer's queue is full it is dropped."""
         try:
-            self._socket.send_multipart([peer, data], zmq.NOBLOCK)
+            self._socket.send(peer, zmq.SNDMORE | zmq.NOBLOCK)
+            self._socket.send(data, zmq.NOBLOCK)
         except zmq.Again:
             return Sent.DROPPED
         except zmq.ZMQError as error:

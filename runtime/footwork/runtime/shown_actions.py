@@ -6,7 +6,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from footwork.runtime.kept import Kept, keep
+from footwork.motion.kept import Kept, keep
 from footwork.runtime.world import World
 
 
@@ -45,4 +45,5 @@ class ShownActions:
 
     def note(self) -> None:
         """Write what all characters do after the tick last made."""
-        _note(self._world.slots, self._kept)
+        if len(self._world.slots):
+            _note(self._world.slots, self._kept)

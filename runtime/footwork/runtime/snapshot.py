@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from footwork.controllers.orders import LATCH_TICKS, Orders
 from footwork.errors import InputError
+from footwork.motion.kept import keep
 from footwork.runtime.foot_lock import STEP_TICKS
-from footwork.runtime.kept import keep
 from footwork.runtime.world import World
 
 MAGIC, VERSION = b"FWSN", 1

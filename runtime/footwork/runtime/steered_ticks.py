@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from footwork.controllers.orders import Orders, ask, put_in_force
 from footwork.controllers.steering import SteeringController, steer
+from footwork.motion.kept import Kept, keep
 from footwork.motion.moves import no_moves
-from footwork.runtime.kept import Kept, keep
 from footwork.runtime.schedule import Schedule
 from footwork.runtime.ticking import advance, show_characters
 from footwork.runtime.world import World
@@ -114,6 +114,8 @@ class SteeredTicks:
         Raises:
             WrongMove: where the table's move cannot be made in this world: the ticks before it have been made.
         """
+        if not len(slots):
+            return
         wrong = make_ticks(slots, schedule, self._steering, self._world.remembered, poses)
         if wrong >= 0:
             self._world.raise_wrong_move(wrong, self._moves)

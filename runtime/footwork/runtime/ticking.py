@@ -3,12 +3,12 @@
 import numba
 from numpy.typing import NDArray
 
+from footwork.motion.kept import Kept
 from footwork.motion.tick import TICK
 from footwork.runtime.characters import Characters, Motion, Smoothing
 from footwork.runtime.foot_lock import update_locks
 from footwork.runtime.held_feet import hold_feet
 from footwork.runtime.inertialisation import decay, take_jumps
-from footwork.runtime.kept import Kept
 from footwork.runtime.moving import first_wrong_move, make_moves
 from footwork.runtime.posing import pose
 

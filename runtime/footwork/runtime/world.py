@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from footwork.motion.angle import wrapped_angle
 from footwork.motion.graph import MotionGraph
+from footwork.motion.kept import keep
 from footwork.motion.moves import LEAP, Moves
 from footwork.runtime.characters import Motion, motion_of, no_characters, smoothing
 from footwork.runtime.foot_lock import move_locks
-from footwork.runtime.kept import keep
 from footwork.runtime.motion_rows import VELOCITY
 from footwork.runtime.rotation_kernels import turned
 from footwork.runtime.ticking import advance_kept, show_kept
@@ -182,7 +182,8 @@ class World:
         if not 0.0 < fraction <= 1.0:
             raise WorldError(f"fraction is {fraction}, expected above 0 and at most 1")
         shown = self._shown_root, self._shown_rotations
-        show_kept(self.slots, fraction, self.remembered, *shown)
+        if len(self.slots):
+            show_kept(self.slots, fraction, self.remembered, *shown)
         return shown
 
     def require(self, slot: int) -> None:
