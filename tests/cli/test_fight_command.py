@@ -1,12 +1,19 @@
 """``footwork fight``: one match, a league, a recording, and input that is refused in a line."""
 
 import json
+from pathlib import Path
 
+import msgpack
+import numpy as np
 import pytest
 
 from fighting_bundle import fighting_bundle
 from footwork.cli.main import main
+from footwork.cli.recorded_film import recorded_film
 from footwork.motion.bundle import write_bundle
+from footwork.runtime.arena import Arena
+from footwork.runtime.opponent import opponent_named
+from footwork.runtime.replay import start_recording
 from toy_bundle import toy_bundle
 
 
@@ -108,3 +115,17 @@ def test_opponents_that_cannot_be_are_refused_in_a_line(arguments, problem, bund
     said = capsys.readouterr().err
     assert problem in said
     assert "Traceback" not in said
+
+
+def test_a_recorded_fight_of_players_is_shown_as_a_film_with_everyones_health(bundle, tmp_path):
+    arena, path = Arena(fighting_bundle(), 2, opponent=opponent_named("aggressive")), tmp_path / "fight.footrec"
+    recorder = start_recording(arena, path, rate=30)
+    for ticks in (40, 20):
+        slot = arena.spawn(0.0, 0.0, 0.0)
+        arena.play(ticks, 0)
+        arena.remove(slot)
+    arena.end_recording()
+    recorder.wait()
+    film = msgpack.unpackb(recorded_film(path, Path(bundle), 0.0, None))
+    assert [(role["first"], len(role["health"])) for role in film["roles"]] == [(0, 160), (0, 160), (40, 80), (40, 80)]
+    assert np.frombuffer(film["roles"][0]["health"], "<f4")[0] == 1.0

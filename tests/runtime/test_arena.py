@@ -11,13 +11,17 @@ from footwork.errors import InputError
 from footwork.motion.planar import after
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server
+from footwork.protocol.compliance import run
 from footwork.runtime.arena import Arena
+from footwork.runtime.host import Host
+from footwork.runtime.limits import Limits
 from footwork.runtime.match_rules import MatchRules
 from footwork.runtime.opponent import Opponent, opponent_named, recorded_opponent
 from footwork.runtime.recording import Opposed, read_recording
 from footwork.runtime.replay import Replay, start_recording
 from footwork.runtime.succession import Succession
 from footwork.runtime.world_errors import WorldFull
+from in_process import Switchboard
 from talk import SECOND, Talk, codes, spawn
 
 OPPONENT = Opponent("aggressive", opponent_named("aggressive").style, rules=MatchRules(round_seconds=5.0), seed=4)
@@ -335,3 +339,9 @@ def test_keys_that_jump_are_told_what_there_is():
     (error,) = [message for message in line.tick(b"a") if isinstance(message, m.Error)]
     assert error.code == "behaviour"
     assert error.valid == ("locomotion", "attack", "evade")
+
+
+@pytest.mark.parametrize("lockstep", [False, True])
+def test_a_host_of_fights_keeps_to_the_protocol(lockstep):
+    host = Host(arena(capacity=64), 60, Limits(), lockstep=lockstep)
+    assert {outcome.name: outcome.problem for outcome in run(Switchboard(host, 2).dial) if outcome.problem} == {}

@@ -122,11 +122,13 @@ class _Seen:
         first: the tick at which it comes.
         poses: of the frames of each tick.  # (frames, 3 + 4 J)
         doing: behaviour, whether it is a transition, and node, of each tick.
+        health: of a fighter, of each tick.
     """
 
     first: int
     poses: list[NDArray[np.float32]] = field(default_factory=list)
     doing: list[tuple[int, bool, int]] = field(default_factory=list)
+    health: list[float] = field(default_factory=list)
 
 
 class _Watch:
@@ -142,6 +144,8 @@ class _Watch:
 
     def see(self, tick: int, poses: NDArray[np.float32]) -> None:
         """Take the poses of a tick.  # (1, frames, characters, 3 + 4 J)"""
+        from footwork.runtime.arena import Arena
+
         if tick not in self._span:
             return
         simulation = self._replay.simulation
@@ -152,6 +156,8 @@ class _Watch:
             seen, slot = self.seen.setdefault(who, _Seen(tick)), who[1]
             seen.poses.append(poses[0, :, row].copy())
             seen.doing.append((simulation.behaviour[slot], simulation.transition[slot], simulation.world.node[slot]))
+            if isinstance(simulation, Arena):
+                seen.health.append(float(simulation.health[slot]))
 
     @property
     def shown(self) -> range:
@@ -169,4 +175,5 @@ class _Watch:
         frames = len(seen.poses[0])
         behaviour, transition, node = (np.repeat(np.array(column), frames) for column in zip(*seen.doing, strict=True))
         first = frames * (seen.first - self.shown.start)
-        return Role(title, first, np.concatenate(seen.poses), behaviour, transition, node)
+        health = np.repeat(np.array(seen.health), frames) if seen.health else None
+        return Role(title, first, np.concatenate(seen.poses), behaviour, transition, node, health)

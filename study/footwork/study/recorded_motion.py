@@ -61,12 +61,15 @@ class Occupants:
 
     def __init__(self, recording: r.Recording) -> None:
         self._coming = deque(record for record in recording.records if isinstance(record, r.Spawned))
+        opposed = bool(recording.records) and isinstance(recording.records[0], r.Opposed)
+        self._company = range(2 if opposed else 1)
         self._born: Counter[int] = Counter()
 
     def at(self, tick: int, slots: NDArray[np.intp]) -> list[tuple[int, int]]:
         """A name for whom each slot holds in a tick that is not before the one asked for last.  # (n,)"""
         while self._coming and self._coming[0].tick <= tick:
-            self._born[self._coming.popleft().slot] += 1
+            slot = self._coming.popleft().slot
+            self._born.update(slot + more for more in self._company)
         return [(self._born[slot], slot) for slot in slots.tolist()]
 
 

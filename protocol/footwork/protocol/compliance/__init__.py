@@ -3,14 +3,20 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from footwork.protocol.compliance import bundle_checks, character_checks, refusal_checks, session_checks
+from footwork.protocol.compliance import (
+    bundle_checks,
+    character_checks,
+    fight_checks,
+    refusal_checks,
+    session_checks,
+)
 from footwork.protocol.compliance.peer import Dial, Failed, Line, Peer, SocketLine
 
 __all__ = ["CHECKS", "Dial", "Failed", "Line", "Outcome", "Peer", "SocketLine", "run"]
 
 CHECKS: dict[str, Callable[[Dial], None]] = {
     name: check
-    for checks in (session_checks, bundle_checks, character_checks, refusal_checks)
+    for checks in (session_checks, bundle_checks, character_checks, fight_checks, refusal_checks)
     for name, check in vars(checks).items()
     if getattr(check, "__module__", "") == checks.__name__ and not name.startswith("_")
 }

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from typing import Protocol, TypeVar
 
 import zmq
+from msgspec import UNSET
 
 from footwork.protocol import messages as m
 from footwork.protocol.address import connect
@@ -78,10 +79,16 @@ class Peer:
 
     Args:
         line: to the server.
+
+    Attributes:
+        watches: whether it hears of opponents too, and of blows and rounds; else it passes them over.
     """
 
     def __init__(self, line: Line) -> None:
         self.line = line
+        self.watches = False
+        self._opponents: set[int] = set()
+        self._own: set[int] = set()
         self._welcome: m.Welcome | None = None
         self._sequence = 0
         self._stepping = False
@@ -104,6 +111,8 @@ class Peer:
 
     def say(self, message: m.FromClient) -> None:
         """Send a message."""
+        if isinstance(message, m.Spawn):
+            self._own.add(message.character)
         self.line.send(encode(message))
 
     def hear(self, kind: type[Kind], seconds: float = PATIENCE) -> Kind:
@@ -129,6 +138,13 @@ class Peer:
         Raises:
             Failed: for bytes that are no message.
         """
+        end = time.monotonic() + seconds
+        message = self._message(seconds)
+        while not self.watches and self._is_of_a_fight(message):
+            message = self._message(max(0.0, end - time.monotonic()))
+        return message
+
+    def _message(self, seconds: float) -> m.FromServer | None:
         data = self.line.receive(seconds)
         try:
             message = None if data is None else decode_from_server(data)
@@ -137,11 +153,32 @@ class Peer:
         self._stepping = self._stepping and not isinstance(message, m.Stepped)
         return message
 
+    def _is_of_a_fight(self, message: m.FromServer | None) -> bool:
+        """Whether a message is about an opponent or tells of blows and rounds."""
+        if not isinstance(message, m.Event | m.Pose):
+            return False
+        if isinstance(message, m.Event) and message.opponent is not UNSET:
+            if message.kind != "spawned":
+                return True
+            self._opponents.update({message.character, message.opponent} - self._own)
+        return message.character in self._opponents
+
     def greet(self, **fields) -> m.Welcome:
         """Begin a session."""
         self.say(m.Hello(version=m.PROTOCOL_VERSION, client="compliance", **fields))
         self._welcome = self.hear(m.Welcome)
+        self._opponents = {other for _, other in self._welcome.opponents or ()}
         return self._welcome
+
+    @property
+    def own(self) -> tuple[int, ...]:
+        """The characters of the welcome that the client steers."""
+        return tuple(number for number in self.welcome.spawned if number not in self._opponents)
+
+    @property
+    def company(self) -> int:
+        """How many characters a spawn brings."""
+        return 1 if self.welcome.opponent is UNSET else 2
 
     def spawn(self, character: int = 0, **fields) -> m.Event:
         """Put a character into the world; the event that tells of it."""

@@ -58,7 +58,7 @@ def an_unknown_behaviour_is_refused_with_those_there_are(dial: Dial) -> None:
         peer.say(m.Command(sequence=sequence, character=0, heading=0.0, behaviour="no such behaviour"))
         expect(peer.refusal(BEHAVIOUR, sequence).valid, welcome.behaviours, "what would be valid")
         sequence = peer.next()
-        peer.say(m.Spawn(sequence=sequence, character=1, behaviour="no such behaviour"))
+        peer.say(m.Spawn(sequence=sequence, character=9, behaviour="no such behaviour"))
         peer.refusal(BEHAVIOUR, sequence)
 
 
@@ -101,7 +101,7 @@ def a_session_may_have_so_many_characters(dial: Dial) -> None:
     """As many as the welcome says."""
     with in_session(dial) as peer:
         welcome = peer.welcome
-        for number in range(min(welcome.characters, 64)):
+        for number in range(0, min(welcome.characters, 64), peer.company):
             peer.spawn(number)
         if welcome.characters <= 64:
             sequence = peer.next()
