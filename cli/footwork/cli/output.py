@@ -25,7 +25,8 @@ def emit(report: Mapping[str, object], as_json: bool, title: str) -> None:
     for name, value in report.items():
         if _is_rows(value):
             across, down = _rows(value, name), _rows(value, name, lying=True)
-            console.print(across if _width(across, console) <= console.width else down)
+            lies = _width(down, console) <= console.width < _width(across, console)
+            console.print(down if lies else across)
 
 
 def _is_rows(value: object) -> TypeGuard[Sequence[Mapping[str, object]]]:
