@@ -15,7 +15,8 @@ export class Graph {
 
   show(series) {
     const [middle, high] = [0.5, 0.99].map((share) => series.quantile(share));
-    put(this.value, Number.isNaN(middle) ? "none yet" : `${middle.toFixed(1)}, 99% ${high.toFixed(1)} ${this.unit}`);
+    const told = `${middle.toFixed(0)} ${this.unit}, 99 % below ${high.toFixed(0)}`;
+    put(this.value, Number.isNaN(middle) ? "none yet" : told);
     this.#draw(series.values, series.most);
   }
 

@@ -34,7 +34,7 @@ const frames = new Series(300);
 const graphs = [
   [new Graph(at("graphs"), "key to pose", "ms", 120, 34), session.latency],
   [new Graph(at("graphs"), "tick to tick", "ms", 90, 1000 / 30), session.gaps],
-  [new Graph(at("graphs"), "drawn every", "ms", 60, 1000 / 60), frames],
+  [new Graph(at("graphs"), "drawn every", "ms", 4 * quality.aim, quality.aim), frames],
 ];
 const transport = new Transport(
   players,

@@ -8,6 +8,7 @@ export class Quality {
   constructor(stage) {
     this.stage = stage;
     this.level = stage.software ? 2 : 0;
+    this.aim = stage.software ? SOFTWARE_MS + 1000 / 60 : 1000 / 60; // ms from picture to picture
     this.frames = [];
     this.drawn = -Infinity;
     stage.detail(SHARES[this.level]);

@@ -1,5 +1,5 @@
 // What the player wishes: either held keys, or a heading and a behaviour outright, as in a command.
-const KEYED = ["stop", "walk", "run"];
+const KEYED = ["stop", "walk", "run", "jump"];
 
 // Behaviours that keys 1 to 9 ask for.
 export function states(welcome) {
