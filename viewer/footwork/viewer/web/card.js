@@ -4,8 +4,10 @@ import { drawStrip } from "./strip.js";
 const FLASH_MS = 350; // for how long a transition stays lit
 
 export class Card {
-  constructor(parent, title) {
+  // color: of the character's shirt.
+  constructor(parent, title, color) {
     this.root = element("section", "panel figure", parent);
+    this.root.style.setProperty("--shirt", `#${color.toString(16).padStart(6, "0")}`);
     this.title = element("h2", "", this.root);
     this.title.textContent = title;
     const doing = element("div", "doing", this.root);

@@ -15,7 +15,7 @@ export class Graph {
 
   show(series) {
     const [middle, high] = [0.5, 0.99].map((share) => series.quantile(share));
-    const told = `${middle.toFixed(0)} ${this.unit}, 99 % below ${high.toFixed(0)}`;
+    const told = `${middle.toFixed(0)} ${this.unit}, 99 %: ${high.toFixed(0)}`;
     put(this.value, Number.isNaN(middle) ? "none yet" : told);
     this.#draw(series.values, series.most);
   }

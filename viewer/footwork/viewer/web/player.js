@@ -7,6 +7,8 @@ import { Stepper } from "./stepper.js";
 const COLORS = [
   { shirt: 0x5d88a6, trousers: 0x646d78, trail: 0xff9d2e },
   { shirt: 0xa86a5d, trousers: 0x70665e, trail: 0x43b0e8 },
+  { shirt: 0x6f9a62, trousers: 0x6b6f5a, trail: 0xd86fd0 },
+  { shirt: 0x8a6fb0, trousers: 0x5f6470, trail: 0x7fe08a },
 ];
 const APART = 1.4; // metres between two at the start
 
@@ -15,8 +17,9 @@ export class Player {
   // for a session, see film.js.
   constructor(stage, cards, title, number, hear, film) {
     this.title = title;
-    this.figure = new Figure(stage.scene, COLORS[number % COLORS.length]);
-    this.card = new Card(cards, title);
+    const colors = COLORS[number % COLORS.length];
+    this.figure = new Figure(stage.scene, colors);
+    this.card = new Card(cards, title, colors.shirt);
     this.session = film ?? new Session(`/socket/${number}`, -APART * number, (said) => this.#hear(said, hear));
     this.stepper = new Stepper(this.session);
     this.pace = 1;

@@ -1,6 +1,6 @@
 // What a character did in the last seconds: a band coloured by behaviour, a stroke at every transition.
 const SECONDS = 10;
-const COLORS = { stop: "#6c8ea0", walk: "#5fb98c", run: "#e8a13c", jump: "#c678dd", shadow: "#6c8ea0", attack: "#e0574f", evade: "#e8c13c" };
+const COLORS = { stop: "#6c8ea0", walk: "#5fb98c", run: "#e8a13c", jump: "#c678dd", locomotion: "#6c8ea0", shadow: "#6c8ea0", attack: "#e0574f", evade: "#e8c13c" };
 const OTHERS = ["#e06c75", "#56b6c2", "#d19a66", "#98c379", "#b07cd8", "#e5c07b", "#61afef"];
 
 export function colorOf(behaviours, index) {
