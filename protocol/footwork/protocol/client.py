@@ -56,6 +56,8 @@ class Client:
         self._nonce = 0
         self._ping_every = float("inf")
         self._socket = zmq.Context.instance().socket(zmq.DEALER)
+        self._poller = zmq.Poller()
+        self._poller.register(self._socket, zmq.POLLIN)
         self._socket.set(zmq.LINGER, 200)
         self._socket.set(zmq.MAXMSGSIZE, SERVER_MESSAGE_BYTES)
         self._socket.set(zmq.RCVHWM, _QUEUE)
@@ -169,7 +171,7 @@ class Client:
             if time.monotonic() - self._sent > self._ping_every and self._connection.state is State.OPEN:
                 self._send(m.Ping())
             left = max(0.0, end - time.monotonic())
-            if self._socket.poll(math.ceil(1000.0 * min(left, self._ping_every))):
+            if self._poller.poll(math.ceil(1000.0 * min(left, self._ping_every))):
                 message = self._connection.receive(self._socket.recv())
                 if isinstance(message, m.Welcome):  # the server plays another bundle from now on
                     self.welcome = message

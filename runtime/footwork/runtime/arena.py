@@ -141,7 +141,7 @@ class Arena(Simulation):
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made, and how fighters fare; see ``Simulation.show``."""
-        return replace(super().show(fraction), health=self.health, stamina=self.stamina)
+        return super().show(fraction)._replace(health=self.health, stamina=self.stamina)
 
     def record(self, recorder: Recorder) -> None:
         """Tell a recorder, from when nobody is here yet, what takes effect until ``end_recording``."""

@@ -1,13 +1,12 @@
 """What is shown of all characters at one moment."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, eq=False)
-class PoseFrames:
+class PoseFrames(NamedTuple):
     """What is shown of every slot at one moment; rows of slots that hold no character mean nothing.
 
     The arrays are the simulation's own, and hold until the next step or show.

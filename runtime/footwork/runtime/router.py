@@ -28,6 +28,8 @@ MOST_CONNECTIONS = 1024
 _FRAMES = 3
 # ... and what is left of it is passed over so many frames at a time, so that it holds no tick up.
 _PASSED_OVER = 256
+# Operators of flags are slow: each is made once.
+_INCOMING, _MORE = int(zmq.POLLIN), zmq.SNDMORE | zmq.NOBLOCK
 
 
 class Sent(Enum):
@@ -146,7 +148,7 @@ class Router:
         """The next message's first frames, the peer's name before all; None where there is none for now."""
         if self._unread and not self._pass_over():
             return None
-        if not int(self._socket.get(zmq.EVENTS)) & zmq.POLLIN:
+        if not int(self._socket.get(zmq.EVENTS)) & _INCOMING:
             return None
         frames = [self._socket.recv(zmq.NOBLOCK)]
         if not self.connections.knows(frames[0]):
@@ -171,7 +173,7 @@ class Router:
     def send(self, peer: bytes, data: bytes) -> Sent:
         """Hand a message to the transport; where the peer's queue is full it is dropped."""
         try:
-            self._socket.send(peer, zmq.SNDMORE | zmq.NOBLOCK)
+            self._socket.send(peer, _MORE)
             self._socket.send(data, zmq.NOBLOCK)
         except zmq.Again:
             return Sent.DROPPED

@@ -126,6 +126,8 @@ class Session:
     def due(self, tick: int) -> Iterator[Sequenced]:
         """Take out what is for ``tick`` or earlier, in order, and begin to count the next tick's messages."""
         self.count_anew()
+        if not self._inbox:
+            return
         for waiting in sorted(key for key in self._inbox if key <= tick):
             yield from self._inbox.pop(waiting)
 
