@@ -11,6 +11,7 @@ from footwork.controllers.activity import ACTIVITIES
 from footwork.controllers.fighting_style import STYLES
 from footwork.errors import InputError
 from footwork.motion.bundle import read_bundle, write_bundle
+from footwork.runtime import recording as r
 from footwork.runtime.fight_recording import record_fight
 from footwork.runtime.match import Match, fight_ground, table_of
 
@@ -54,6 +55,10 @@ def test_a_recorded_match_is_the_same_film(path, tmp_path):
     )
     assert (late["first_tick"], late["frames"]) == (61, 45)
     assert whole["roles"][1]["poses"].endswith(late["roles"][1]["poses"])
+    read = r.read_recording(tmp_path / "match.footrec")
+    (tmp_path / "begun.footrec").write_bytes(r.MAGIC + r.framed(read.header) + r.framed(read.records[0]))
+    with pytest.raises(InputError, match="holds no tick"):
+        recorded_film(tmp_path / "begun.footrec", path, 0.0, None)
 
 
 @pytest.mark.parametrize(

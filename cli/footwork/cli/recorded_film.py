@@ -60,7 +60,9 @@ def _span(recording: Recording, start: float, seconds: float | None) -> range:
     """The ticks of the film."""
     whole = recording.last - recording.first
     skipped = round(start * _TICK_RATE)
-    if not 0 <= skipped < max(1, whole):
+    if whole < 1:
+        raise InputError("holds no tick, expected at least one", recording.where)
+    if not 0 <= skipped < whole:
         raise InputError(f"{start:g} seconds, the recording has {whole / _TICK_RATE:.1f}", "--start")
     wanted = LONGEST_SECONDS if seconds is None else seconds
     first = recording.first + 1 + skipped

@@ -8,6 +8,7 @@ import numpy as np
 
 from footwork.motion.bundle import Bundle
 from footwork.motion.graph import MotionGraph
+from footwork.motion.mirror import MIRRORED
 from footwork.motion.table import PolicyTable
 from footwork.study.contact_sheet import contact_sheet, contact_sheets
 from footwork.study.drawing import label_colours, pyplot
@@ -30,13 +31,14 @@ _SIDE = 7.6  # inches of a picture of all pairs of frames
 
 
 def inspection_plots(bundle: Bundle, directory: str | os.PathLike) -> list[Path]:
-    """Draw all pictures of a bundle into a folder and return their paths.
+    """Draw all pictures of a bundle into a folder and return their paths; mirrored clips are not drawn once more.
 
     Raises:
         InputError: for a folder that cannot be made or written to, or a missing matplotlib.
     """
     directory, graph = Path(directory), bundle.graph
-    paths = contact_sheets(directory, clips_of_graph(graph))
+    clips = [clip for clip in clips_of_graph(graph) if not clip.name.endswith(MIRRORED)]
+    paths = contact_sheets(directory, clips)
     frames = bundle.provenance.get("counts", {}).get("frames")
     paths += [
         transitions_plot(graph, directory / "transitions.svg"),
