@@ -1,4 +1,7 @@
-"""Microseconds a character and tick of motion matching: ``python benchmarks/motion_matching.py`` prints JSON.
+"""Microseconds a character and tick of motion matching: ``python benchmarks/motion_matching.py [--bundle FILE]``.
+
+It prints JSON; with a bundle also what a decision by its table costs for the same players, and how many times that goes
+into each form's.
 
 Both forms choose moves for one character, for 100 and for 1,000 at once, as recorded players ask (made-up ones where
 there are none), on the benchmark's clips and their mirror images, and on 54,000 frames: copies of these with every
@@ -6,6 +9,7 @@ joint turned by a little, another amount in each copy, so that no frame is there
 against brute force over the same frames on the same queries, in turns; all else of a tick is the same for both.
 """
 
+import argparse
 import json
 import sys
 from collections.abc import Callable, Sequence
@@ -15,7 +19,10 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from footwork.controllers.controller import Controller
+from footwork.controllers.steering import SteeringController
 from footwork.motion import quaternion
+from footwork.motion.bundle import read_bundle
 from footwork.motion.clip import Clip
 from footwork.motion.mirror import mirrored
 from footwork.motion.trace import Trace, read_trace
@@ -111,27 +118,49 @@ def measured(clips: Sequence[Clip], options: MatchingOptions, traces: list[Trace
         "frames": controller.graph.node_count,
         "searched_mb": round(controller.table_bytes / 1e6, 2),
         "search": searches(controller),
-        "decision_us": {
-            count: pace(traces, controller, characters=count, ticks=ticks)["decision_us"]
-            for count, ticks in TICKS.items()
-        },
+        "decision_us": decisions(controller, traces),
     }
+
+
+def decisions(controller: Controller, traces: list[Trace]) -> dict[str, dict[str, float]]:
+    """Microseconds of a decision, by the number of characters that decide at once."""
+    return {
+        str(count): pace(traces, controller, characters=count, ticks=ticks)["decision_us"]
+        for count, ticks in TICKS.items()
+    }
+
+
+def by_table(path: str, traces: list[Trace], forms: dict[str, dict[str, dict]]) -> dict[str, object]:
+    """What a bundle's table costs, and how many times that goes into each form's time on the motions it had."""
+    bundle = read_bundle(path)
+    ours = decisions(SteeringController(bundle.graph, bundle.table("steering")), traces)
+    times = {
+        f"{form}, {motion}": {
+            count: {key: theirs["decision_us"][count][key] / value for key, value in mine.items()}
+            for count, mine in ours.items()
+        }
+        for form, by_motion in forms.items()
+        for motion, theirs in by_motion.items()
+    }
+    return {"nodes": bundle.graph.node_count, "decision_us": ours, "times_faster_than": times}
 
 
 def main() -> None:
     """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bundle", help="whose table to set beside it")
+    asked = parser.parse_args()
     name, clips = benchmark_clips()
     clips = [*clips, *map(mirrored, clips)]
     motions = {f"{name}, mirrored": clips, f"{name}, jittered copies": many_clips(clips, MANY_FRAMES)}
     asking, traces = players()
-    report = {
-        "unit": "us per character and tick, us per search",
-        "players": asking,
-        "forms": {
-            form: {motion: measured(those, options, traces) for motion, those in motions.items()}
-            for form, options in FORMS.items()
-        },
+    forms = {
+        form: {motion: measured(those, options, traces) for motion, those in motions.items()}
+        for form, options in FORMS.items()
     }
+    report = {"unit": "us per character and tick, us per search", "players": asking, "forms": forms}
+    if asked.bundle:
+        report["table"] = by_table(asked.bundle, traces, forms)
     json.dump(report, sys.stdout, indent=2)
     print()
 
