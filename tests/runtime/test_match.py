@@ -10,9 +10,9 @@ from footwork.controllers.activity import ATTACK, EVADE
 from footwork.controllers.attack import CLOSEST, best_attack
 from footwork.controllers.evade import NO_THREAT, best_evade
 from footwork.controllers.fighters import draw, new_fighters
-from footwork.controllers.fighting_style import STYLES, FightingStyle
+from footwork.controllers.fighting_style import STYLES, FightingStyle, styles_for_kernels
 from footwork.controllers.prediction import begin_paths, predict
-from footwork.controllers.shadow import shadow_edge
+from footwork.controllers.shadow import NEAREST, OVERREACH, PRESSING, RESTLESS, kept_distance, overreach, shadow_edge
 from footwork.controllers.shadowing import TableShadowing
 from footwork.controllers.strike_distance import strike_distance
 from footwork.errors import InputError
@@ -313,3 +313,21 @@ def test_what_cannot_be_is_refused():
 def test_rules_out_of_range_are_refused_with_their_range(values, problem):
     with pytest.raises(InputError, match=problem):
         rules_in(values, "fight.toml")
+
+
+def test_the_longer_nothing_happens_the_nearer_a_fighter_comes_and_back_again():
+    (style,) = styles_for_kernels([STYLES["patient"]])
+    calm = RESTLESS + PRESSING * np.array([-0.1, 0.0, 0.5, 1.0, 1.5, 2.0, 3.0])
+    far, near = style["distance"], NEAREST
+    kept = [kept_distance(style, number) for number in calm]
+    assert kept == pytest.approx([far, far, 0.5 * (far + near), near, 0.5 * (far + near), far, near])
+    (close,) = styles_for_kernels([FightingStyle(distance=0.6)])
+    assert kept_distance(close, RESTLESS + PRESSING) == 0.6, "who is nearer already does not back off"
+    assert [overreach(number) for number in calm[:4]] == pytest.approx([0.0, 0.0, 0.5 * OVERREACH, OVERREACH])
+
+
+def test_two_who_keep_their_distance_do_not_settle_down():
+    bout = match(styles=[FightingStyle(roam=0.0, distance=1.5)] * 2)
+    bout.play(3600)
+    begun = np.concatenate([[0], np.sort(events(bout, "attack")[:, 0]), [3600]])
+    assert np.diff(begun).max() < 25 * 30

@@ -3,7 +3,7 @@ import pytest
 
 from footwork.motion import quaternion
 from footwork.motion.kinematics import forward
-from footwork.study.shown import ground_of, shown, shown_report, source_report
+from footwork.study.shown import ground_of, shown, shown_report, source_report, source_skating
 from motion_samples import ring_graph
 
 GRAPH = ring_graph(12)
@@ -48,3 +48,13 @@ def test_the_capture_has_its_own_figures():
     report = source_report(STANDING)
     assert report["source_foot_slide_cm_s"] == pytest.approx(120.0, rel=1e-4)
     assert report["source_skating_ratio"] == 1.0
+
+
+def test_skating_of_frames_counts_those_that_are_shown_as_often_as_they_are():
+    fast = np.where(np.arange(len(GRAPH.displacement))[:, None] < 6, GRAPH.displacement, 0.0)
+    fields = {name: value for name, value in vars(STANDING).items() if name in type(GRAPH).__dataclass_fields__}
+    graph = type(GRAPH)(**{**fields, "displacement": fast.astype(np.float32)})
+    assert source_skating(graph, np.array([1, 2])) == 1.0
+    assert source_skating(graph, np.array([1, 2, 11, 11])) == 0.5
+    assert source_skating(graph, np.arange(12)) == source_report(graph)["source_skating_ratio"]
+    assert source_skating(graph, np.zeros(3, int)) is None, "a clip's first frame has no step"

@@ -11,7 +11,7 @@ from footwork.controllers.evade import NO_THREAT, best_evade, threat
 from footwork.controllers.fight_map import FightMap
 from footwork.controllers.fighters import BY_ITSELF, NO_GOAL, draw
 from footwork.controllers.prediction import Paths, next_edge
-from footwork.controllers.shadow import Shadowing, shadow_edge
+from footwork.controllers.shadow import Shadowing, overreach, shadow_edge
 
 
 class Minds(NamedTuple):
@@ -76,14 +76,15 @@ def _reasonable(world, fighters, styles, who, paths):
     """The first reasonable action: the supervisor's own choice."""
     fighter, style = fighters[who], styles[who]
     struck, apart = threat(world, fighters, styles, who, paths), _apart(paths)
-    wary = fighter.stamina >= style.evade_cost and (struck != NO_THREAT or apart < style.near)
+    further = overreach(fighter.calm)
+    wary = fighter.stamina >= style.evade_cost and (struck != NO_THREAT or apart < style.near + further)
     if wary and draw(fighter) < style.readiness:
         away, goal = best_evade(world, fighters, styles, who, paths, struck)
         if goal >= 0 and (struck != NO_THREAT or away > apart):
             return EVADE, goal
     if fighter.rest <= 0 and fighter.stamina >= style.attack_cost and draw(fighter) < style.eagerness:
         away, goal = best_attack(world, fighters, styles, who, paths)
-        if goal >= 0 and away <= style.reach:
+        if goal >= 0 and away <= style.reach + further:
             return ATTACK, goal
     return SHADOW, NO_GOAL
 

@@ -11,7 +11,7 @@ from footwork.motion.angle import wrapped
 from footwork.motion.tick import TICK_RATE
 from footwork.runtime.match import Match
 from footwork.runtime.tally import Track
-from footwork.study.shown import ground_of, shown, shown_report, source_report
+from footwork.study.shown import ground_of, shown, shown_report, source_report, source_skating
 
 CHUNK = 600 * TICK_RATE
 """Ticks that are made and looked at together."""
@@ -102,7 +102,10 @@ def counts_report(match: Match) -> dict[str, Any]:
 
 
 def slide_report(match: Match, ticks: int) -> dict[str, Any]:
-    """JSON-able: what feet slide and skate as they are shown in ticks of a match, and in the clips themselves."""
+    """JSON-able: what feet slide and skate as they are shown in ticks of a match, and in the clips themselves.
+
+    Of skating also what the frames that were shown come to in the clips: fights have more kicks than the clips have.
+    """
     poses = match.play(ticks, shown=True).astype(np.float64)
     graph, track = match.world.graph, match.track
     ground = ground_of(graph)
@@ -117,4 +120,5 @@ def slide_report(match: Match, ticks: int) -> dict[str, Any]:
         )
         for who in range(2)
     ]
-    return shown_report(parts) | source_report(graph)
+    of_frames = {"source_skating_ratio_of_frames_shown": source_skating(graph, track.node.ravel())}
+    return shown_report(parts) | source_report(graph) | of_frames

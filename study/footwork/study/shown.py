@@ -16,7 +16,7 @@ from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import clip_places, forward
 from footwork.motion.tick import TICK_RATE
 from footwork.study.foot_slide import Slide, slide_of_capture, slide_of_frames, soles
-from footwork.study.graph_clips import clips_of_graph
+from footwork.study.graph_clips import clip_of_graph, clips_of_graph
 from footwork.study.skating import skating_steps
 
 
@@ -97,6 +97,26 @@ def source_report(graph: MotionGraph) -> dict[str, Any]:
         "source_foot_slide_cm_s": slide_of_capture(graph, highest=ground + OFF_HEIGHT).cm_per_second,
         "source_skating_ratio": float(steps.mean()) if steps.size else None,
     }
+
+
+def source_skating(graph: MotionGraph, nodes: NDArray) -> float | None:
+    """Of the captured frames among some nodes, the share at whose steps a foot skates in the clips themselves.
+
+    It is what a skating ratio comes to by the choice of frames alone: footwork skates less than kicks do.
+
+    Args:
+        graph: of the nodes.
+        nodes: which, each as often as it counts.  # (K,)
+    """
+    ground, feet = ground_of(graph), graph.skeleton.feet[:, 1]
+    skates = np.full((graph.node_count, feet.size), np.nan)  # a clip's first frame has no step
+    for number in np.unique(graph.clip[graph.original]):
+        there = np.flatnonzero((graph.clip == number) & graph.original)
+        there = there[np.argsort(graph.frame[there], kind="stable")]
+        skates[there[1:]] = skating_steps(clip_places(clip_of_graph(graph, int(number)))[0][:, feet], ground)
+    counted = skates[nodes]
+    counted = counted[~np.isnan(counted)]
+    return float(counted.mean()) if counted.size else None
 
 
 def _p95(parts: Sequence[NDArray]) -> float | None:
