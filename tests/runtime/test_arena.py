@@ -12,6 +12,7 @@ from footwork.motion.planar import after
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server
 from footwork.protocol.compliance import run
+from footwork.protocol.spectator import Spectator
 from footwork.runtime.arena import Arena
 from footwork.runtime.host import Host
 from footwork.runtime.limits import Limits
@@ -22,6 +23,7 @@ from footwork.runtime.replay import Replay, start_recording
 from footwork.runtime.succession import Succession
 from footwork.runtime.world_errors import WorldFull
 from in_process import Switchboard
+from served import TIMEOUT, client_of, serving
 from talk import SECOND, Talk, codes, spawn
 
 OPPONENT = Opponent("aggressive", opponent_named("aggressive").style, rules=MatchRules(round_seconds=5.0), seed=4)
@@ -345,3 +347,16 @@ def test_keys_that_jump_are_told_what_there_is():
 def test_a_host_of_fights_keeps_to_the_protocol(lockstep):
     host = Host(arena(capacity=64), 60, Limits(), lockstep=lockstep)
     assert {outcome.name: outcome.problem for outcome in run(Switchboard(host, 2).dial) if outcome.problem} == {}
+
+
+def test_spectators_see_both_and_how_they_fare():
+    with (
+        serving(bundle=fighting_bundle(), spectate="tcp://127.0.0.1:0", opponent=OPPONENT) as server,
+        client_of(server) as client,
+        Spectator(str(server.gallery_address), timeout=TIMEOUT) as spectator,
+    ):
+        assert spectator.scene.opponent == "aggressive"
+        client.spawn(3)
+        poses = spectator.poses()
+        assert {next(poses).character for _ in range(8)} == {0, 1}
+        assert isinstance(next(poses).health, float)

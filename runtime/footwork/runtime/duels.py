@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.activity import ACTIVITIES
+from footwork.controllers.bundle_controller import STEERING
 from footwork.controllers.fighters import BY_ITSELF, FIGHTER, NO_GOAL, new_fighters
 from footwork.controllers.state_steering import StateSteering
 from footwork.controllers.stepping import Stepping
@@ -18,7 +19,6 @@ from footwork.runtime.tally import CLOCK, COUNTS
 
 SPEEDS = (0.0, 1.0)
 """Metres a second: the slowest and the fastest that footwork may be asked for."""
-_STEERING = "steering"
 _BEYOND = 1e9
 
 
@@ -63,7 +63,7 @@ class DuelSteering(StateSteering):
         self.ground: FightGround = fight_ground(bundle)
         if bundle.annotation is None:
             raise InputError("no states", bundle.graph.where)
-        super().__init__(bundle.graph, bundle.table(_STEERING), bundle.annotation)
+        super().__init__(bundle.graph, bundle.table(STEERING), bundle.annotation)
         self.opponent = opponent
         self.stepping = Stepping(self.ground.hops)
         self._duel = _no_duels(0)
