@@ -1,6 +1,6 @@
 """The pose message of one character of what is shown."""
 
-from msgspec import UNSET
+from msgspec.structs import replace
 
 from footwork.protocol.messages import Pose
 from footwork.protocol.pose_arrays import packed
@@ -9,7 +9,7 @@ from footwork.runtime.simulation import PoseFrames
 
 def pose_message(shown: PoseFrames, slot: int, *, tick: int, frame: int, number: int, acknowledged: int = 0) -> Pose:
     """What ``shown`` has of a slot, at shown frame ``frame`` of ``tick``, for whom the character has ``number``."""
-    return Pose(
+    pose = Pose(
         tick=tick,
         frame=frame,
         character=number,
@@ -21,6 +21,7 @@ def pose_message(shown: PoseFrames, slot: int, *, tick: int, frame: int, number:
         transition=shown.transition.item(slot),
         root=packed(shown.root[slot]),
         rotations=packed(shown.rotations[slot]),
-        health=UNSET if shown.health is None else shown.health.item(slot),
-        stamina=UNSET if shown.stamina is None else shown.stamina.item(slot),
     )
+    if shown.health is None or shown.stamina is None:
+        return pose
+    return replace(pose, health=shown.health.item(slot), stamina=shown.stamina.item(slot))
