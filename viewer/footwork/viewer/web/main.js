@@ -69,8 +69,15 @@ function hear({ welcome, lost, problem, rival }) {
 function oppose(rival) {
   players.push(new Player(stage, at("figures"), rival.title, players.length, hear, rival));
   document.body.classList.add("fighting");
+}
+
+let faced = false;
+// Once there is a fight the camera goes where both are seen, from head to foot.
+function face() {
+  if (faced || !fight.isOn) return;
+  faced = true;
   if (camera.kind !== "follow") changeCamera();
-  camera.distance = 4.4; // both from head to foot
+  camera.distance = 4.4;
 }
 
 function bold(text) {
@@ -110,6 +117,7 @@ function turn(now) {
   transport.recorder?.note(keyboard.keys, camera.yaw, now);
   for (const player of players) player.show(now, seconds);
   fight.light(now);
+  face();
   camera.follow(middle(), fight.isOn ? fight.view : followed.figure.facing, seconds);
   if (quality.allows(now)) draw(now);
   before = now;
