@@ -32,7 +32,7 @@ def of_numbers(kind: type[Kind], numbers: dict[str, float], where: str) -> Kind:
     """
     if sorted(numbers) != sorted(ranged_names(kind)):
         raise InputError(f"damaged: the numbers of a {kind.__name__} are not those it has", where)
-    return kind(**numbers, where=where)
+    return kind(**numbers | {"where": where})
 
 
 def require_ranges(numbers: Any, where: str) -> None:
