@@ -91,7 +91,9 @@ def test_inspect_says_what_is_in_a_bundle_and_draws_it(reported, bundle, tmp_pat
     report = reported("inspect", bundle[0], "--plots", tmp_path / "plots")
     assert report["nodes"] == bundle[1]["scc_nodes"]
     assert report["plots"]
-    assert all(Path(picture).read_bytes().startswith(b"\x89PNG") for picture in report["plots"])
+    begins = {".svg": b"<svg ", ".png": b"\x89PNG", ".html": b"<!doctype html>"}
+    assert {Path(picture).suffix for picture in report["plots"]} >= {".svg", ".png"}
+    assert all(Path(one).read_bytes().startswith(begins[Path(one).suffix]) for one in report["plots"])
 
 
 def test_inspect_looks_at_motions_before_anything_is_built(reported, captures):

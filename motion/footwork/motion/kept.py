@@ -4,6 +4,7 @@ Each array that Python hands to compiled code costs a third of a microsecond, an
 same from call to call is handed over once, and kept in a structure of compiled code's own that holds on to it.
 """
 
+from types import SimpleNamespace
 from typing import Any
 
 import numba
@@ -32,7 +33,13 @@ class Kept(structref.StructRefProxy):
 structref.define_proxy(Kept, KeptType, ["parts"])
 
 
+def keep(parts: Any) -> Any:
+    """Hand a tuple over, of arrays, numbers and tuples of these; what compiled code takes for it, with ``parts``."""
+    if numba.config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return SimpleNamespace(parts=parts)  # without a compiler there are no structures of its own
+    return _compiled(parts)
+
+
 @numba.njit(cache=True)
-def keep(parts: Any) -> Kept:
-    """Hand a tuple over, of arrays, numbers and tuples of these."""
+def _compiled(parts: Any) -> Kept:
     return Kept(parts)
