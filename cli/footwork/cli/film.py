@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from footwork.errors import InputError
+from footwork.motion.tick import TICK_RATE
 
 if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help loads no numerics
     import numpy as np
@@ -16,7 +17,6 @@ if TYPE_CHECKING:  # at run time they are imported where they are needed, so tha
 
 LONGEST_SECONDS = 600.0
 """Of a film: a browser keeps all of it."""
-_TICK_RATE = 30
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ def packed(
     behaviours: Sequence[str],
     roles: Sequence[Role],
     *,
-    rate: int = _TICK_RATE,
+    rate: int = TICK_RATE,
     first_tick: int = 1,
     attribution: Sequence[str] = (),
 ) -> bytes:
@@ -69,7 +69,7 @@ def packed(
 
     skeleton = graph.skeleton
     welcome = {
-        "tick_rate": _TICK_RATE,
+        "tick_rate": TICK_RATE,
         "frame_rate": rate,
         "joints": skeleton.names,
         "parents": skeleton.parents.tolist(),
@@ -104,6 +104,6 @@ def ticks_within(seconds: float, option: str) -> int:
     Raises:
         InputError: for none, and for more than LONGEST_SECONDS.
     """
-    if not 1.0 / _TICK_RATE <= seconds <= LONGEST_SECONDS:
+    if not 1.0 / TICK_RATE <= seconds <= LONGEST_SECONDS:
         raise InputError(f"{seconds:g} seconds of a film, expected up to {LONGEST_SECONDS:g}", option)
-    return round(seconds * _TICK_RATE)
+    return round(seconds * TICK_RATE)

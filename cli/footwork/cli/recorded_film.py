@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from footwork.cli.film import LONGEST_SECONDS, Role, packed, ticks_within
 from footwork.cli.output import log, progress
 from footwork.errors import InputError
+from footwork.motion.tick import TICK_RATE
 
 if TYPE_CHECKING:  # at run time they are imported where they are needed, so that --help loads no numerics
     import numpy as np
@@ -20,7 +21,6 @@ if TYPE_CHECKING:  # at run time they are imported where they are needed, so tha
 
 MOST_ROLES = 8
 """Characters of a film; those who come later are left out."""
-_TICK_RATE = 30
 
 
 def is_recording(path: Path) -> bool:
@@ -59,11 +59,11 @@ def recorded_film(path: Path, bundle: Path, start: float, seconds: float | None)
 def _span(recording: Recording, start: float, seconds: float | None) -> range:
     """The ticks of the film."""
     whole = recording.last - recording.first
-    skipped = round(start * _TICK_RATE)
+    skipped = round(start * TICK_RATE)
     if whole < 1:
         raise InputError("holds no tick, expected at least one", recording.where)
     if not 0 <= skipped < whole:
-        raise InputError(f"{start:g} seconds, the recording has {whole / _TICK_RATE:.1f}", "--start")
+        raise InputError(f"{start:g} seconds, the recording has {whole / TICK_RATE:.1f}", "--start")
     wanted = LONGEST_SECONDS if seconds is None else seconds
     first = recording.first + 1 + skipped
     return range(first, min(first + ticks_within(wanted, "--seconds"), recording.last + 1))
@@ -73,8 +73,8 @@ def _tell_of(recording: Recording, span: range) -> None:
     """Say what is shown of a recording."""
     if not recording.whole:
         log(f"{recording.where}: was cut off, and is shown up to its last whole record")
-    begin, end = ((tick - recording.first) / _TICK_RATE for tick in (span.start - 1, span.stop - 1))
-    whole = (recording.last - recording.first) / _TICK_RATE
+    begin, end = ((tick - recording.first) / TICK_RATE for tick in (span.start - 1, span.stop - 1))
+    whole = (recording.last - recording.first) / TICK_RATE
     log(f"{recording.where}: from {begin:.1f} to {end:.1f} s of {whole:.1f} s")
 
 

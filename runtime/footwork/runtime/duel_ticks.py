@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.activity import ACTIVITIES, ATTACK, EVADE, SHADOW
-from footwork.controllers.command import Command
 from footwork.controllers.fighters import BY_ITSELF
 from footwork.controllers.fighting_style import styles_for_kernels
 from footwork.controllers.orders import Orders, ask
@@ -23,7 +22,7 @@ from footwork.runtime.hits import BodyPoints
 from footwork.runtime.match import table_of
 from footwork.runtime.match_rules import rules_for_kernels
 from footwork.runtime.match_ticks import Ring, fight, new_room
-from footwork.runtime.schedule import Schedule
+from footwork.runtime.single_ticks import SingleTicks
 from footwork.runtime.tally import EVENTS, Tally, new_track
 from footwork.runtime.world import World
 
@@ -54,8 +53,8 @@ class Pair(NamedTuple):
     tally: Tally
 
 
-class DuelTicks:
-    """Makes the ticks of a world of duels.
+class DuelTicks(SingleTicks):
+    """Makes the ticks of a world of duels; of each pair of slots, both or none.
 
     Args:
         steering: what they decide by.
@@ -67,7 +66,8 @@ class DuelTicks:
     """
 
     def __init__(self, steering: DuelSteering, world: World, orders: Orders) -> None:
-        self._steering, self._world, self._orders = steering, world, orders
+        super().__init__(world, orders)
+        self._steering = steering
         self._map, opponent = steering.ground.world, steering.opponent
         table = table_of(steering.ground.bundle) if opponent.table else None
         lookahead = rules_of_shadowing(ShadowingTask()) if table is None else table.rules
@@ -94,33 +94,12 @@ class DuelTicks:
             pairs.append(Pair(duel.fighters[both], ring, tally))
         return pairs
 
-    def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
-        """Take whole pairs through T ticks and write their poses at F moments of each.
-
-        Args:
-            slots: which, in rising order.  # (n,)
-            schedule: commands to the players among them.
-            poses: written: place of joint 0, then local rotations joint by joint.  # (T, F, n, 3 + 4 J) float32
-        """
-        pairs = [slot // 2 for slot in slots.tolist() if slot % 2 == 0 and slot // 2 < len(self._pairs)]
-        frames = poses.shape[1]
-        for tick, shown in enumerate(poses):
-            self._give(schedule, tick)
-            ask(slots, self._world.graph.behaviour[self._world.node[slots]], self._orders.in_force)
-            self.happened = []
-            for pair in pairs:
-                self._fight(pair)
-            for frame in range(frames):
-                root, rotations = self._world.show((frame + 1) / frames)
-                shown[frame, :, :3] = root[slots]
-                shown[frame, :, 3:] = rotations[slots].reshape(len(slots), rotations.shape[1] * 4)
-
-    def _give(self, schedule: Schedule, tick: int) -> None:
-        due = schedule.tick == tick
-        rows = zip(*(array[due].tolist() for array in schedule), strict=True)
-        for _, slot, heading, behaviour, one_shot, speed in rows:
-            shown = int(self._world.graph.behaviour[self._world.node[slot]])
-            self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
+    def _step(self, slots: NDArray[np.intp]) -> None:
+        ask(slots, self._world.graph.behaviour[self._world.node[slots]], self._orders.in_force)
+        self.happened = []
+        for slot in slots.tolist():
+            if slot % 2 == 0 and slot // 2 < len(self._pairs):
+                self._fight(slot // 2)
 
     def _fight(self, pair: int) -> None:
         fighters, ring, tally = self._pairs[pair]
