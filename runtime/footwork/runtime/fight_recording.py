@@ -4,12 +4,11 @@ What is kept besides is the digest of its state every two seconds, so that a rep
 """
 
 import hashlib
-from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 
 from footwork.controllers.fighting_style import FightingStyle
-from footwork.controllers.ranged_numbers import ranged_names
+from footwork.controllers.ranged_numbers import numbers_of, of_numbers
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.tick import TICK_RATE
@@ -31,8 +30,8 @@ def record_fight(match: Match, ticks: int, path: str | Path) -> None:
     if match.tick:
         raise InputError(f"{match.tick} ticks of it are made, expected a match that has not begun", path)
     recorder = Recorder(path, _header(match))
-    styles = _numbers(match.styles[0]), _numbers(match.styles[1])
-    recorder.add(r.Fought(1, styles, _numbers(match.rules), match.shadowing is not None))
+    styles = numbers_of(match.styles[0]), numbers_of(match.styles[1])
+    recorder.add(r.Fought(1, styles, numbers_of(match.rules), match.shadowing is not None))
     while match.tick < ticks:
         match.play(min(ticks - match.tick, r.STATE_TICKS))
         recorder.add_state(match.tick, _SLOTS, match.rows())
@@ -57,18 +56,12 @@ def match_of(recording: r.Recording, bundle: Bundle) -> Match:
     begun, header = recording.records[0], recording.header
     if not isinstance(begun, r.Fought) or any(isinstance(record, r.Effect) for record in recording.records[1:]):
         raise InputError("damaged: expected one match and nothing else in it", recording.where)
-    for numbers, kind in (
-        (begun.styles[0], FightingStyle),
-        (begun.styles[1], FightingStyle),
-        (begun.rules, MatchRules),
-    ):
-        if sorted(numbers) != sorted(ranged_names(kind)):
-            raise InputError(f"damaged: the numbers of a {kind.__name__} are not those it has", recording.where)
+    styles = [of_numbers(FightingStyle, numbers, recording.where) for numbers in begun.styles]
     return Match(
         fight_ground(bundle),
-        [FightingStyle(**numbers, where=recording.where) for numbers in begun.styles],
+        styles,
         header.seed,
-        rules=MatchRules(**begun.rules, where=recording.where),
+        rules=of_numbers(MatchRules, begun.rules, recording.where),
         shadowing=table_of(bundle) if begun.table else None,
         inertialise=header.inertialise,
         foot_lock=header.foot_lock,
@@ -114,8 +107,3 @@ def _header(match: Match) -> r.Header:
         foot_lock=smoothing.foot_lock,
         seed=match.seed,
     )
-
-
-def _numbers(of: FightingStyle | MatchRules) -> dict[str, float]:
-    values = asdict(of)
-    return {name: float(values[name]) for name in ranged_names(type(of))}
