@@ -76,6 +76,14 @@ def test_a_peer_that_does_not_read_loses_messages_and_takes_no_time(router, deal
     assert outcomes == {Sent.QUEUED, Sent.DROPPED}
 
 
+def test_no_connection_lingers_by_itself(router):
+    # a socket's connections keep what it has when it is made: one that its peer ends while it is being closed held the
+    # whole context up for ever, once in some two hundred times
+    with router.socket(zmq.XPUB) as another:
+        assert another.get(zmq.LINGER) == 0
+    assert router._socket.get(zmq.LINGER) == 0
+
+
 def test_a_peer_that_left_is_told_of(router, dealer):
     dealer.send(b"hello")
     router.poll(20000)

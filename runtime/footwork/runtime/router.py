@@ -64,6 +64,9 @@ class Router:
         if not port_fits(bind):
             raise InputError("cannot bind: a port is at most 65535", bind)
         self._context = zmq.Context()
+        # From the first: a connection that its peer ends keeps what the socket was made with, however that is closed
+        # later, and one that lingers for ever keeps the context from ending.
+        self._context.setsockopt(zmq.LINGER, 0)
         self._socket = self._context.socket(zmq.ROUTER)
         options = {
             zmq.ROUTER_MANDATORY: 1,

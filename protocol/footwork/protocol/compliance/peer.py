@@ -55,6 +55,7 @@ class SocketLine:
 
     def __init__(self, address: str) -> None:
         self._socket = zmq.Context.instance().socket(zmq.DEALER)
+        self._socket.set(zmq.LINGER, 200)
         try:
             connect(self._socket, address, DEFAULT_ADDRESS)
         except LocalError:
@@ -71,7 +72,7 @@ class SocketLine:
 
     def close(self) -> None:
         """Hang up, without a word."""
-        self._socket.close(linger=200)
+        self._socket.close()
 
 
 class Peer:
