@@ -2,7 +2,7 @@
 
 At a decision the commands of the next S seconds are known, and then the player is taken to be as the policy table takes
 them to be, whose values end the plan. Plans look back over the nodes that can be reached in time, and are made anew
-every few ticks, so that foresight is S at most and S less 0.07 s at least.
+every few ticks, so that foresight is S at most, and at least S less 0.07 s or a sixth of it, whichever is more.
 """
 
 import math
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from footwork.controllers.controller import present_behaviours
 from footwork.controllers.steering import SteeringController
 from footwork.errors import InputError
-from footwork.motion.actions import actions_of
+from footwork.motion.actions import actions_of, onward_edges
 from footwork.motion.asked import going_on, spawn_behaviour
 from footwork.motion.graph import MotionGraph
 from footwork.motion.table import PolicyTable
@@ -25,7 +25,7 @@ from footwork.study.planned import PlannedController
 
 MOST_SECONDS = 5.0
 REPLAN = 3
-"""Ticks after which a plan is made anew."""
+"""Ticks after which a plan is made anew, at least; those of long plans last for a sixth of what they know."""
 
 
 class Foresight:
@@ -49,7 +49,7 @@ class Foresight:
         self._start = SteeringController(graph, table).start_node
         self._warp = turn_warp(graph)
         actions = actions_of(graph, table.task, self._warp)
-        self._looking = LookBack(actions, table.task.heading_bins, table.task.discount)
+        self._looking = LookBack(actions, onward_edges(graph), table.task.heading_bins, table.task.discount)
         self._ticks = round(seconds * TICK_RATE)
 
     @property
@@ -91,6 +91,7 @@ class _ShortPlans:
         self._heading, self._behaviour = heading, behaviour
         self._lasting = going_on(behaviour, first)
         self._known, self._from = ticks, -math.inf
+        self._lasts = min(max(REPLAN, ticks // 6), ticks + 1)
         graph = foresight.graph
         self._edges = graph.edge_start, graph.target
         self._after = np.zeros((ticks + 2, graph.node_count, looking.bins), np.float32)
@@ -98,7 +99,7 @@ class _ShortPlans:
 
     def after(self, tick: int, node: int) -> NDArray[np.float32]:
         """The worth after a tick of the nodes that can be reached in it.  # (N, bins)"""
-        if not self._from <= tick < self._from + min(REPLAN, self._known + 1):
+        if not self._from <= tick < self._from + self._lasts:
             self._plan(tick, node)
         return self._after[int(tick - self._from) + 1]
 
@@ -113,7 +114,8 @@ class _ShortPlans:
         from_table(layers[-1], self._values, float(self._heading[last]), int(self._lasting[last]), end)
         for ahead in range(last - tick, 0, -1):
             now, after, before = tick + ahead, self._after[ahead + 1], self._after[ahead]
-            self._looking.over(layers[ahead], float(self._heading[now]), int(self._behaviour[now]), after, before)
+            wanted = float(self._heading[now]), int(self._behaviour[now])
+            self._looking.over(layers[ahead], layers[ahead + 1], *wanted, after, before)
         self._from = tick
 
 

@@ -5,6 +5,7 @@ so no command is an axis. Between yaws they are interpolated, and the control qu
 """
 
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -16,7 +17,43 @@ from footwork.motion.lookahead import control_quality, reward_of
 from footwork.motion.threads import THREADS
 
 _FRACTIONS = 64
+_LANES = 8  # rows are swept in whole vectors of so many numbers
 _WORTH_SHARING = 512  # nodes, under which threads cost more than they bring
+
+
+class Ways(NamedTuple):
+    """What each of E edges with each of L extra turns leads to and earns; all that hangs on no player.
+
+    Args:
+        first: the tabulated yaw that one at -pi comes to or just past.  # (E, L)
+        share: how far past, as a share of the way to the next.  # (E, L)
+        fraction: the same in steps of a 64th.  # (E, L)
+        least: what is earned where the control quality is 0.  # (E, L)
+        gain: how much more where it is 1.  # (E, L)
+    """
+
+    first: NDArray[np.int16]
+    share: NDArray[np.float32]
+    fraction: NDArray[np.int16]
+    least: NDArray[np.float32]
+    gain: NDArray[np.float32]
+
+
+def ways_of(actions: Actions, bins: int) -> Ways:
+    """The ways of a task's actions, for values at so many yaws."""
+    turn = actions.level * actions.turn_limit[actions.target, None]
+    place = (actions.yaw[:, None].astype(np.float64) + turn) * (bins / (2.0 * np.pi))
+    whole = np.floor(place)
+    quality = actions.smoothness[:, None] * actions.turn_smoothness[actions.target]
+    earn: Any = reward_of  # of arrays, too
+    least, most = (earn(control, quality, actions.rules.additive, actions.rules.weight) for control in (0.0, 1.0))
+    return Ways(
+        first=(whole.astype(np.int64) % bins).astype(np.int16),
+        share=(place - whole).astype(np.float32),
+        fraction=np.rint((place - whole) * _FRACTIONS).astype(np.int16),
+        least=least.astype(np.float32),
+        gain=(most - least).astype(np.float32),
+    )
 
 
 class LookBack:
@@ -24,22 +61,27 @@ class LookBack:
 
     Args:
         actions: of the graph and the task.
+        onward: ``actions.onward_edges``, which are looked at first.  # (N,)
         bins: yaws that values are tabulated at.
         discount: the worth of the next tick against this one's.
     """
 
-    def __init__(self, actions: Actions, bins: int, discount: float) -> None:
+    def __init__(self, actions: Actions, onward: NDArray[np.int32], bins: int, discount: float) -> None:
         self.actions, self.bins, self.discount = actions, bins, discount
-        width = 2.0 * np.pi / bins
-        yaws = np.tile(-np.pi + width * np.arange(bins), 2)
-        self._yaws = yaws + width * np.arange(_FRACTIONS + 1)[:, None] / _FRACTIONS
+        self._onward, self._ways = onward, ways_of(actions, bins)
+        nodes, width = len(actions.behaviour), bins + -(-bins // _LANES) * _LANES
+        self._round, self._highest = np.zeros((nodes, width + 1), np.float32), np.zeros(nodes, np.float32)
+        step = 2.0 * np.pi / bins
+        yaws = -np.pi + step * (np.arange(width) % bins)
+        self._yaws = yaws + step * np.arange(_FRACTIONS + 1)[:, None] / _FRACTIONS
         self._pool = ThreadPoolExecutor(THREADS)
 
-    def over(self, nodes: NDArray, heading: float, wanted: int, after: NDArray, before: NDArray) -> None:
+    def over(self, nodes: NDArray, onto: NDArray, heading: float, wanted: int, after: NDArray, before: NDArray) -> None:
         """Write what nodes are worth before a tick into their rows of ``before``.
 
         Args:
             nodes: which.  # (n,) int32
+            onto: all that edges lead to from them.  # (m,) int32
             heading: wanted yaw in the world, radians.
             wanted: index of the behaviour asked for, -1 for one that nothing matches.
             after: what nodes are worth after the tick.  # (N, bins) float32
@@ -47,7 +89,9 @@ class LookBack:
         """
         sigma = self.actions.rules.heading_sigma
         qualities = np.exp(-0.5 * (wrapped(heading - self._yaws) / sigma) ** 2).astype(np.float32)
-        common = self.actions, np.float32(self.discount), wanted, qualities, after, before
+        go_round(onto, after, self._round, self._highest)
+        values = np.float32(self.discount), self._round, self._highest
+        common = self.actions, self._onward, self._ways, *values, wanted, qualities, before
         if len(nodes) < _WORTH_SHARING:
             look_back(nodes, *common)
             return
@@ -56,68 +100,103 @@ class LookBack:
 
 
 @numba.njit(cache=True, nogil=True)
+def go_round(nodes: NDArray, values: NDArray, round_again: NDArray, highest: NDArray) -> None:
+    """Write nodes' values (N, bins) into rows that go on from the first after the last, and the highest of each."""
+    bins, width = values.shape[1], round_again.shape[1]
+    for node in nodes:
+        highest[node] = values[node].max()
+        for first in range(0, width, bins):
+            count = min(bins, width - first)
+            round_again[node, first : first + count] = values[node, :count]
+
+
+@numba.njit(cache=True, nogil=True)
 def look_back(
     nodes: NDArray,
     actions: Actions,
+    onward: NDArray,
+    ways: Ways,
     discount: np.float32,
+    after: NDArray,
+    highest: NDArray,
     wanted: int,
     qualities: NDArray,
-    after: NDArray,
     before: NDArray,
 ) -> None:
-    """``LookBack.over``; ``qualities`` are those of facings a fraction of a bin past each bin.  # (65, 2 bins)"""
+    """``LookBack.over``: values after are those of ``go_round``.
+
+    ``qualities`` are those of facings a fraction of a bin past each bin (65, width). Edges that can be no better than
+    those looked at before them, whatever the yaw, are left out.
+    """
     # Compiled code counts references at each look into a tuple of arrays, so it looks once.
-    edge_start, target, behaviour = actions.edge_start, actions.target, actions.behaviour
-    yaw, smoothness, turn_smoothness = actions.yaw, actions.smoothness, actions.turn_smoothness
-    limit, level, rules = actions.turn_limit, actions.level, actions.rules
-    bins = after.shape[1]
-    round_twice = np.empty(2 * bins + 1, after.dtype)
+    edge_start, target, behaviour, limit = actions.edge_start, actions.target, actions.behaviour, actions.turn_limit
+    first, share, fraction, least, gain = ways
+    bins, levels = before.shape[1], share.shape[1]
+    best = np.empty(after.shape[1] - 1 - bins, np.float32)
     headed = wanted >= 0 and actions.headed[wanted]
     for node in nodes:
-        best = before[node]
-        best[:] = -np.inf
-        for edge in range(edge_start[node], edge_start[node + 1]):
+        best[:], lowest = -np.inf, np.float32(-np.inf)
+        for place in range(edge_start[node] - 1, edge_start[node + 1]):
+            edge = onward[node] if place < edge_start[node] else place
             there = target[edge]
-            for heading in range(bins):
-                round_twice[heading] = round_twice[bins + heading] = after[there, heading]
-            round_twice[2 * bins] = after[there, 0]
             matches = behaviour[there] == wanted and wanted >= 0
-            for turn in range(len(level) if limit[there] > 0.0 else 1):
-                quality = smoothness[edge] * turn_smoothness[there, turn]
-                place = (yaw[edge] + level[turn] * limit[there]) * (bins / (2.0 * np.pi))
-                whole = np.floor(place)
-                share, first = place - whole, int(whole) % bins
-                low = np.float32(reward_of(0.0, quality, rules.additive, rules.weight))
-                high = np.float32(reward_of(1.0, quality, rules.additive, rules.weight))
-                values = round_twice[first : first + bins + 1]
+            most = least[edge, 0] + (gain[edge, 0] if matches else np.float32(0.0))
+            if place == onward[node] or most + discount * highest[there] <= lowest:
+                continue
+            for turn in range(levels if limit[there] > 0.0 else 1):
+                at, further = np.int64(first[edge, turn]), discount * share[edge, turn]
+                here, reward, more = discount - further, least[edge, turn], gain[edge, turn]
                 if matches and headed:
-                    earned = qualities[int(np.rint(share * _FRACTIONS)), first : first + bins]
-                    _take_better_facing(values, np.float32(share), discount, earned, low, high, best)
+                    row = fraction[edge, turn]
+                    _take_better_facing(after, there, at, here, further, qualities, row, more, reward, best)
                 else:
-                    _take_better(values, np.float32(share), discount, high if matches else low, best)
+                    reward += more if matches else np.float32(0.0)
+                    _take_better(after, there, at, here, further, reward, best)
+            lowest = best[0]
+            for h in range(1, bins):
+                lowest = min(lowest, best[h])
+        for h in range(bins):
+            before[node, h] = best[h]
 
 
-@numba.njit(cache=True, nogil=True)
+# Unsigned indices let compiled code take many numbers at once; a call or a part of an array would count references.
+@numba.njit(inline="always")
 def _take_better_facing(
-    values: NDArray,
-    share: np.float32,
-    discount: np.float32,
-    earned: NDArray,
-    low: np.float32,
-    high: np.float32,
+    after: NDArray,
+    there: int,
+    first: np.int64,
+    here: np.float32,
+    further: np.float32,
+    qualities: NDArray,
+    fraction: int,
+    gain: np.float32,
+    least: np.float32,
     best: NDArray,
 ) -> None:
-    gain = high - low
+    row, part = np.uintp(there), np.uintp(fraction)
     for h in range(len(best)):
-        value = low + gain * earned[h] + discount * (values[h] + share * (values[h + 1] - values[h]))
-        best[h] = value if value > best[h] else best[h]
+        at, to = np.uintp(first + h), np.uintp(h)
+        value = (
+            least + gain * qualities[part, at] + (here * after[row, at] + further * after[row, np.uintp(first + h + 1)])
+        )
+        best[to] = value if value > best[to] else best[to]
 
 
-@numba.njit(cache=True, nogil=True)
-def _take_better(values: NDArray, share: np.float32, discount: np.float32, reward: np.float32, best: NDArray) -> None:
+@numba.njit(inline="always")
+def _take_better(
+    after: NDArray,
+    there: int,
+    first: np.int64,
+    here: np.float32,
+    further: np.float32,
+    reward: np.float32,
+    best: NDArray,
+) -> None:
+    row = np.uintp(there)
     for h in range(len(best)):
-        value = reward + discount * (values[h] + share * (values[h + 1] - values[h]))
-        best[h] = value if value > best[h] else best[h]
+        at, to = np.uintp(first + h), np.uintp(h)
+        value = reward + (here * after[row, at] + further * after[row, np.uintp(first + h + 1)])
+        best[to] = value if value > best[to] else best[to]
 
 
 @numba.njit(cache=True, nogil=True)

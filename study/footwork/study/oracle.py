@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import present_behaviours
-from footwork.motion.actions import actions_of
+from footwork.motion.actions import actions_of, onward_edges
 from footwork.motion.graph import MotionGraph
 from footwork.motion.task import SteeringTask
 from footwork.motion.turn_warp import turn_warp
@@ -42,7 +42,7 @@ class Oracle:
         self.graph = graph
         summed = task if task.additive else replace(task, reward="sum", weight=WEIGHT)
         self._warp = turn_warp(graph)
-        self._looking = LookBack(actions_of(graph, summed, self._warp), bins, discount=1.0)
+        self._looking = LookBack(actions_of(graph, summed, self._warp), onward_edges(graph), bins, discount=1.0)
 
     @property
     def present(self) -> tuple[str, ...]:
@@ -104,9 +104,10 @@ class _WholePlan:
         first = block * self._stride
         end = min(first + self._stride, len(self._heading))
         self._between[end - first] = self._kept[block + 1]
+        everywhere = self._nodes, self._nodes
         for tick in range(end - 1, first - 1, -1):
             after, before = self._between[tick + 1 - first], self._between[tick - first]
-            self._looking.over(self._nodes, float(self._heading[tick]), int(self._behaviour[tick]), after, before)
+            self._looking.over(*everywhere, float(self._heading[tick]), int(self._behaviour[tick]), after, before)
             # Only differences matter; without this, float32 would lose them in long traces.
             before -= before.max()
         self._between_from = block
