@@ -84,10 +84,11 @@ class Bench:
         self.host.end_overdue(self.now)
         self.host.tick()
         self.read()
-        for peer, pose in self.host.poses(1):
+        for peer, _, data in self.host.poses(1):
             if peer == HONEST:
                 self.honest_poses += 1
-                if pose.acknowledged != sequence:
+                pose = decode_from_server(data)
+                if not isinstance(pose, m.Pose) or pose.acknowledged != sequence:
                     self.faults.append(f"the honest client's {sequence} was not taken")
 
 

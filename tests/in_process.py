@@ -3,7 +3,6 @@
 from collections import defaultdict, deque
 from itertools import count
 
-from footwork.protocol.codec import encode
 from footwork.runtime.host import Host
 
 TICKS = 40
@@ -47,8 +46,8 @@ class Switchboard:
         self.host.tick()
         self.deliver()
         for frame in range(1, self.frames + 1):
-            for peer, pose in self.host.poses(frame):
-                self._put(peer, encode(pose))
+            for peer, _, pose in self.host.poses(frame):
+                self._put(peer, pose)
 
 
 class InProcessLine:

@@ -44,8 +44,12 @@ class Talk:
     def tick(self, peer: bytes) -> list[m.FromServer]:
         """What a peer gets at the next tick: events and errors, then all its poses."""
         self.host.tick()
-        poses = [pair for frame in range(1, self.frames + 1) for pair in self.host.poses(frame)]
-        return self.answers(peer) + [pose for whom, pose in poses if whom == peer]
+        poses = [pose for frame in range(1, self.frames + 1) for pose in self.poses(peer, frame)]
+        return self.answers(peer) + poses
+
+    def poses(self, peer: bytes, frame: int = 1) -> list[m.Pose]:
+        """What a peer is shown at a frame of the tick last made."""
+        return [decode_pose(pose) for whom, _, pose in self.host.poses(frame) if whom == peer]
 
     def open(self, peer: bytes, **fields) -> m.Welcome:
         (welcome,) = self.say(peer, m.Hello(version=1, client="test", **fields))
@@ -59,6 +63,12 @@ def spawn(sequence: int, character: int, **fields) -> m.Spawn:
 
 def walk(sequence: int, character: int = 0, behaviour: str = "walk", **fields) -> m.Command:
     return m.Command(sequence=sequence, character=character, heading=0.0, behaviour=behaviour, **fields)
+
+
+def decode_pose(data: bytes) -> m.Pose:
+    pose = decode_from_server(data)
+    assert isinstance(pose, m.Pose)
+    return pose
 
 
 def codes(messages: list[m.FromServer]) -> list[str]:

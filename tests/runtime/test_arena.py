@@ -265,7 +265,7 @@ def test_blows_and_rounds_are_told_to_whom_they_happen():
         line.host.tick()
         for peer, data in line.host.outgoing():
             (said if peer == b"a" else others).append(decode_from_server(data))
-        said += [pose for peer, pose in line.host.poses(1) if peer == b"a"]
+        said += line.poses(b"a")
     hits, rounds = told(said, "hit"), told(said, "round")
     assert {(event.character, event.opponent) for event in hits} == {(0, 5), (5, 0)}
     assert all(0.0 < (event.damage or 0.0) <= 0.1 for event in hits)

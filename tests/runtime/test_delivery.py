@@ -3,9 +3,8 @@
 from collections import deque
 
 import pytest
-from msgspec.structs import replace
 
-from footwork.protocol.codec import decode_from_server
+from footwork.protocol.codec import decode_from_server, encode
 from footwork.protocol.messages import Pose
 from footwork.runtime.delivery import Delivery
 from footwork.runtime.router import Sent
@@ -35,7 +34,7 @@ class Pipe:
         return taken
 
 
-def pose(tick: int, character: int = 0) -> Pose:
+def pose(tick: int, character: int = 0, lost: int = 0) -> Pose:
     return Pose(
         tick=tick,
         frame=1,
@@ -48,6 +47,7 @@ def pose(tick: int, character: int = 0) -> Pose:
         transition=False,
         root=bytes(12),
         rotations=bytes(16),
+        lost=lost,
     )
 
 
@@ -67,10 +67,14 @@ def delivery(pipe, known):
 
 
 def show_frame(delivery: Delivery, tick: int, *characters: int) -> None:
-    delivery.begin_frame()
-    for character in characters or (0,):
-        delivery.show(PEER, pose(tick, character))
+    show(delivery, tick, *characters or (0,))
     delivery.retry()
+
+
+def show(delivery: Delivery, tick: int, *characters: int) -> None:
+    lost = delivery.begin_frame()
+    for character in characters:
+        delivery.show(PEER, character, encode(pose(tick, character, lost.get((PEER, character), 0))))
 
 
 def seen(pipe: Pipe) -> list[tuple[int, int, int]]:
@@ -98,9 +102,7 @@ def test_a_slow_reader_gets_the_newest_pose_and_is_told_how_many_were_dropped(de
 
 
 def test_more_characters_than_there_is_room_for_at_once_lose_nothing(delivery, pipe):
-    delivery.begin_frame()
-    for character in range(5):
-        delivery.show(PEER, pose(1, character))
+    show(delivery, 1, *range(5))
     shown = []
     while delivery.waiting:
         shown += seen(pipe)
@@ -168,16 +170,14 @@ def test_peers_that_are_gone_are_named(delivery, pipe):
 
 def test_poses_of_a_bundle_that_went_are_not_sent_after_the_welcome_of_the_next(delivery, pipe):
     for tick in range(3):
-        delivery.begin_frame()
-        delivery.show(PEER, pose(tick))
+        show(delivery, tick, 0)
     delivery.outdate(PEER)
     delivery.tell(PEER, b"welcome")
     pipe.read()
     delivery.retry()
     assert pipe.read() == [b"welcome"]
-    delivery.begin_frame()
-    delivery.show(PEER, pose(3))
+    show(delivery, 3, 0)
     delivery.retry()
     (sent,) = map(decode_from_server, pipe.read())
-    assert sent == replace(pose(3), lost=1)
+    assert sent == pose(3, lost=1)
     assert not delivery.waiting

@@ -29,7 +29,7 @@ def test_changes_of_behaviour_and_transitions_are_told_to_those_who_ask(talk):
         told += [message for peer, message in out if peer == b"a"]
         assert len(events([message for peer, message in out if peer == b"b"], "spawned")) == (len(shown) == 0)
         assert sum(peer == b"b" for peer, _ in out) == (len(shown) == 0)
-        shown += [pose for peer, pose in talk.host.poses(1) if peer == b"a"]
+        shown += talk.poses(b"a")
     changes = [pose for n, pose in enumerate(shown) if n == 0 or pose.behaviour != shown[n - 1].behaviour]
     assert [(event.tick, event.behaviour) for event in events(told, "behaviour")] == [
         (pose.tick, pose.behaviour) for pose in changes

@@ -30,7 +30,7 @@ def test_odd_messages_are_refused_and_an_honest_client_goes_on():
         told = heard(talk)
         assert set(told) <= {HONEST, *PEERS}
         assert not codes(told[HONEST])
-        poses = dict(talk.host.poses(1))
-        assert poses[HONEST].acknowledged == number
+        (pose,) = talk.poses(HONEST)
+        assert pose.acknowledged == number
         refused |= {code for peer in PEERS for code in codes(told[peer])}
     assert {"malformed", "no_session", "too_large"} <= refused

@@ -13,7 +13,6 @@ from footwork.motion.bundle import Bundle
 from footwork.runtime.duel_ticks import DuelTicks, Happening
 from footwork.runtime.duels import SPEEDS, DuelSteering
 from footwork.runtime.opponent import Opponent
-from footwork.runtime.pose_frames import PoseFrames
 from footwork.runtime.recorder import Recorder
 from footwork.runtime.simulation import Simulation
 from footwork.runtime.world_errors import WorldFull
@@ -55,6 +54,7 @@ class Arena(Simulation):
         self._duels = DuelSteering(bundle, opponent)
         super().__init__(bundle, capacity, inertialise=inertialise, foot_lock=foot_lock, controller=self._duels)
         self.opponent = opponent
+        self.shown = self.shown._replace(health=self.health, stamina=self.stamina)
         self.vocabulary = FightVocabulary(
             self.world.graph.behaviours, self.behaviours, self.speeds, one_shot=self._one_shot, rest=self.behaviours[0]
         )
@@ -138,10 +138,6 @@ class Arena(Simulation):
     def stand(self, slot: int) -> None:
         """Let a player's character stop where it is; it does not stop its opponent."""
         self.give(slot, Command(self.world.place[slot, 2].item(), 0, speed=SPEEDS[0]))
-
-    def show(self, fraction: float) -> PoseFrames:
-        """What is shown of the tick last made, and how fighters fare; see ``Simulation.show``."""
-        return super().show(fraction)._replace(health=self.health, stamina=self.stamina)
 
     def record(self, recorder: Recorder) -> None:
         """Tell a recorder, from when nobody is here yet, what takes effect until ``end_recording``."""

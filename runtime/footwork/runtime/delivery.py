@@ -8,10 +8,6 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from msgspec.structs import replace
-
-from footwork.protocol.codec import encode
-from footwork.protocol.messages import Pose
 from footwork.runtime.router import Sent
 
 
@@ -21,7 +17,7 @@ class Backlog:
 
     Args:
         messages: all but poses, oldest first.
-        poses: the newest of each character, by number.
+        poses: the newest of each character, by number, and how many dropped before it that one tells of.
         dropped: of characters without a pose of this frame as yet, how many were dropped since the last one sent.
         stale_since: when it was first seen that the peer has no session, nanoseconds.
         closed: whether nothing may follow what waits.
@@ -29,7 +25,7 @@ class Backlog:
     """
 
     messages: deque[bytes] = field(default_factory=deque)
-    poses: dict[int, Pose] = field(default_factory=dict)
+    poses: dict[int, tuple[bytes, int]] = field(default_factory=dict)
     dropped: dict[int, int] = field(default_factory=dict)
     stale_since: int | None = None
     closed: bool = False
@@ -80,28 +76,34 @@ class Delivery:
         """Let a message take the place of all that waits for a peer, and of what would follow."""
         self._backlogs[peer] = Backlog(messages=deque([data]), closed=True)
 
-    def begin_frame(self) -> None:
-        """Give up the poses that wait: those of another frame are to follow."""
+    def begin_frame(self) -> dict[tuple[bytes, int], int]:
+        """Give up the poses that wait: those of another frame are to follow.
+
+        Returns:
+            By peer and number of a character how many of its poses were dropped, for the next one to tell.
+        """
         for backlog in self._backlogs.values():
             self.dropped += len(backlog.poses)
-            backlog.dropped = {number: pose.lost + 1 for number, pose in backlog.poses.items()}
+            backlog.dropped = {number: lost + 1 for number, (_, lost) in backlog.poses.items()}
             backlog.poses, backlog.outdated = {}, False
+        return {
+            (peer, number): lost for peer, backlog in self._backlogs.items() for number, lost in backlog.dropped.items()
+        }
 
     def outdate(self, peer: bytes) -> None:
         """Send none of the poses that wait for a peer; those of the next frame tell that they were dropped."""
         if peer in self._backlogs:
             self._backlogs[peer].outdated = True
 
-    def show(self, peer: bytes, pose: Pose) -> Sent:
-        """Send a pose, or keep it until there is room or another frame begins."""
+    def show(self, peer: bytes, number: int, pose: bytes) -> Sent:
+        """Send the pose of a character, which tells what ``begin_frame`` said, or keep it until there is room."""
         backlog = self._backlogs.get(peer)
         if backlog is None:
-            sent = self._send(peer, encode(pose))
+            sent = self._send(peer, pose)
             if sent is Sent.DROPPED:
-                self._backlogs[peer] = Backlog(poses={pose.character: pose})
+                self._backlogs[peer] = Backlog(poses={number: (pose, 0)})
             return sent
-        dropped = backlog.dropped.pop(pose.character, 0)
-        backlog.poses[pose.character] = replace(pose, lost=dropped) if dropped else pose
+        backlog.poses[number] = pose, backlog.dropped.pop(number, 0)
         return Sent.QUEUED
 
     def retry(self) -> list[bytes]:
@@ -117,7 +119,7 @@ class Delivery:
         if backlog.outdated:
             return Sent.DROPPED
         for number in list(backlog.poses):
-            sent = self._send(peer, encode(backlog.poses[number]))
+            sent = self._send(peer, backlog.poses[number][0])
             if sent is not Sent.QUEUED:
                 return sent
             del backlog.poses[number]

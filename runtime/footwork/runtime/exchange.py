@@ -79,9 +79,9 @@ class Exchange:
 
     def show(self, frame: int) -> None:
         """Hand over the poses of a shown frame."""
-        self._delivery.begin_frame()
-        for peer, pose in self._host.poses(frame):
-            if self._delivery.show(peer, pose) is Sent.GONE:
+        lost = self._delivery.begin_frame()
+        for peer, number, pose in self._host.poses(frame, lost):
+            if self._delivery.show(peer, number, pose) is Sent.GONE:
                 self._lose(peer)
 
     def retry(self) -> None:

@@ -8,16 +8,15 @@ from footwork.protocol import messages as m
 from footwork.runtime.arena import Arena
 from footwork.runtime.duel_ticks import Happening
 from footwork.runtime.session import Session
-from footwork.runtime.simulation import Simulation
 from footwork.runtime.tally import EVENTS, HIT, MISSED, ROUND
 
 NOBODY = -1
 _STRIKES = EVENTS[HIT], EVENTS[MISSED]
 
 
-def fight_events(session: Session, simulation: Simulation) -> Iterator[m.Event]:
+def fight_events(session: Session, simulation: Arena) -> Iterator[m.Event]:
     """The strikes and the ends of rounds of the tick last made, each told of the one that it happened to."""
-    if not isinstance(simulation, Arena) or not simulation.happened:
+    if not simulation.happened:
         return
     numbers = {character.slot: number for number, character in session.characters.items()}
     for happening in simulation.happened:

@@ -4,7 +4,6 @@ import logging
 import math
 from collections.abc import Iterable
 
-import numpy as np
 import zmq
 from msgspec.structs import replace
 
@@ -14,7 +13,6 @@ from footwork.protocol.codec import encode
 from footwork.protocol.messages import TICK_RATE, Welcome
 from footwork.runtime.connections import Connections
 from footwork.runtime.limits import Limits
-from footwork.runtime.pose_message import pose_message
 from footwork.runtime.router import Router, is_local
 from footwork.runtime.scene import Scene
 
@@ -91,9 +89,11 @@ class Gallery:
         if tick >= due or welcome is not told:
             self._told[topics.scene] = welcome, tick + TICK_RATE
             self._publish(topics.scene, encode(replace(welcome, tick=tick)))
-        shown = simulation.show(frame * TICK_RATE / welcome.frame_rate)
-        for slot in np.flatnonzero(simulation.world.active).tolist():
-            self._publish(topics.pose(slot), encode(pose_message(shown, slot, tick=tick, frame=frame, number=slot)))
+        simulation.show(frame * TICK_RATE / welcome.frame_rate)
+        slots = simulation.world.slots.tolist()
+        poses = scene.messages.of([(slot, slot, 0, 0) for slot in slots], tick=tick, frame=frame)
+        for slot, pose in zip(slots, poses, strict=True):
+            self._publish(topics.pose(slot), pose)
 
     def _publish(self, topic: bytes, data: bytes) -> None:
         self._socket.send_multipart([topic, data], zmq.NOBLOCK)  # PUB sockets drop what a subscriber has no room for

@@ -5,6 +5,7 @@ The server drives it by the clock, or by its clients' steps, and a ROUTER socket
 
 import logging
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from footwork.protocol import messages as m
@@ -14,17 +15,19 @@ from footwork.runtime.clock import SECOND
 from footwork.runtime.greeting import welcome_to
 from footwork.runtime.happenings import happenings
 from footwork.runtime.limits import Limits
-from footwork.runtime.pose_message import pose_message
 from footwork.runtime.roster import Roster
 from footwork.runtime.scene import Scene
 from footwork.runtime.scenes import Scenes
 from footwork.runtime.session import Sequenced, Session
-from footwork.runtime.simulation import PoseFrames, Simulation
+from footwork.runtime.simulation import Simulation
 from footwork.runtime.succession import Succession
 
 log = logging.getLogger(__name__)
 
 Outgoing = tuple[bytes, bytes]  # peer, message
+ShownTo = tuple[bytes, int, bytes]  # peer, its number for the character, message
+Lost = Mapping[tuple[bytes, int], int]
+"""By peer and its number for a character, how many poses were dropped."""
 
 
 class Host:
@@ -264,32 +267,32 @@ class Host:
             session.asked -= 1
         done = [session for session in asking if not session.asked]
         if done:
-            self._answer_steps(scene.simulation, done)
+            self._answer_steps(scene, done)
         return True
 
-    def _answer_steps(self, simulation: Simulation, sessions: list[Session]) -> None:
-        shown = simulation.show(1.0)
+    def _answer_steps(self, scene: Scene, sessions: list[Session]) -> None:
+        scene.simulation.show(1.0)
+        for peer, _, pose in self._poses(scene, sessions, self._frames, {}):
+            self._outbox.append((peer, pose))
         for session in sessions:
-            for pose in self._poses(session, shown, self._frames):
-                self._send(session, pose)
-            self._send(session, m.Stepped(tick=simulation.tick))
+            self._send(session, m.Stepped(tick=scene.simulation.tick))
 
     def outgoing(self) -> list[Outgoing]:
         """Answers that waited, oldest first; they wait no more."""
         outbox, self._outbox = self._outbox, []
         return outbox
 
-    def poses(self, frame: int) -> Iterator[tuple[bytes, m.Pose]]:
-        """Peers and poses of all characters at shown frame ``frame`` = 1, 2 ... frame_rate / 30 of the tick."""
-        shown = {scene: scene.simulation.show(frame / self._frames) for scene in self.scenes}
-        for session in list(self.sessions.values()):  # whoever sends these may find a session gone
-            for pose in self._poses(session, shown[session.scene], frame):
-                yield session.peer, pose
+    def poses(self, frame: int, lost: Lost = MappingProxyType({})) -> Iterator[ShownTo]:
+        """The poses of all characters at shown frame ``frame`` = 1, 2 ... frame_rate / 30, which tell what was lost."""
+        for scene in self.scenes:
+            scene.simulation.show(frame / self._frames)
+            yield from self._poses(scene, self.playing(scene), frame, lost)
 
-    def _poses(self, session: Session, shown: PoseFrames, frame: int) -> Iterator[m.Pose]:
-        tick = session.scene.simulation.tick
-        for number, who in session.characters.items():
-            yield pose_message(shown, who.slot, tick=tick, frame=frame, number=number, acknowledged=who.acknowledged)
+    def _poses(self, scene: Scene, sessions: Iterable[Session], frame: int, lost: Lost) -> Iterator[ShownTo]:
+        whose = [(session.peer, number, who) for session in sessions for number, who in session.characters.items()]
+        rows = [(who.slot, number, who.acknowledged, lost.get((peer, number), 0)) for peer, number, who in whose]
+        poses = scene.messages.of(rows, tick=scene.simulation.tick, frame=frame)
+        return ((peer, number, pose) for (peer, number, _), pose in zip(whose, poses, strict=True))
 
     def _send(self, session: Session, message: m.FromServer) -> None:
         self._outbox.append((session.peer, session.connection.send(message)))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 class PoseFrames(NamedTuple):
     """What is shown of every slot at one moment; rows of slots that hold no character mean nothing.
 
-    The arrays are the simulation's own, and hold until the next step or show.
+    The arrays are the simulation's own, the same at every step and show, which write over what they hold.
 
     Args:
         root: place of joint 0 in the world, metres.  # (capacity, 3) float32

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from footwork.protocol.messages import Welcome
 from footwork.protocol.spectator import Topics
 from footwork.runtime.effects import Effects
+from footwork.runtime.pose_messages import PoseMessages
 from footwork.runtime.simulation import Simulation
 
 
@@ -17,6 +18,7 @@ class Scene:
         simulation: its own; another after a reload.
         welcome: what its sessions are told on arrival, as far as it is the same for all.
         effects: how their messages take effect.
+        messages: how they are told of poses.
         topics: where spectators find it.
         sessions_begun: how many there were.
         reloads: how often another bundle took its place.
@@ -26,6 +28,7 @@ class Scene:
     simulation: Simulation
     welcome: Welcome
     effects: Effects
+    messages: PoseMessages
     topics: Topics
     sessions_begun: int = 0
     reloads: int = 0

@@ -14,6 +14,7 @@ from footwork.runtime.arena import Arena
 from footwork.runtime.effects import Effects
 from footwork.runtime.greeting import welcome_of
 from footwork.runtime.limits import Limits
+from footwork.runtime.pose_messages import PoseMessages
 from footwork.runtime.scene import Scene
 from footwork.runtime.simulation import Simulation
 
@@ -77,7 +78,8 @@ class Scenes:
 
     def _scene(self, name: str, simulation: Simulation) -> Scene:
         topics = Topics("" if name == self._names[0] else name)
-        return Scene(name, simulation, self.welcome_for(name, simulation), self._effects_on(simulation), topics)
+        welcome, messages = self.welcome_for(name, simulation), PoseMessages(simulation.shown)
+        return Scene(name, simulation, welcome, self._effects_on(simulation), messages, topics)
 
     def _effects_on(self, simulation: Simulation) -> Effects:
         return Effects(simulation, self._limits, partial(self._find_room, simulation))
@@ -124,6 +126,7 @@ class Scenes:
     def put(self, scene: Scene, latter: Simulation, welcome: m.Welcome) -> None:
         """Let another simulation take the place of a scene's."""
         scene.simulation, scene.welcome, scene.effects = latter, welcome, self._effects_on(latter)
+        scene.messages = PoseMessages(latter.shown)
         scene.reloads += 1
 
     @property

@@ -1,7 +1,7 @@
 """One client: its state, its inbox by tick, its characters and what was acknowledged. No socket here."""
 
 import secrets
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -123,13 +123,13 @@ class Session:
         self.sequence = message.sequence
         self._inbox.setdefault(due, []).append(message)
 
-    def due(self, tick: int) -> Iterator[Sequenced]:
+    def due(self, tick: int) -> Sequence[Sequenced]:
         """Take out what is for ``tick`` or earlier, in order, and begin to count the next tick's messages."""
         self.count_anew()
         if not self._inbox:
-            return
-        for waiting in sorted(key for key in self._inbox if key <= tick):
-            yield from self._inbox.pop(waiting)
+            return ()
+        due = sorted(key for key in self._inbox if key <= tick)
+        return [message for key in due for message in self._inbox.pop(key)]
 
     def count_anew(self) -> None:
         """Begin to count the messages of another tick."""

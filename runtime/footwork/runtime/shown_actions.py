@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.kept import Kept, keep
+from footwork.runtime.pose_frames import PoseFrames
 from footwork.runtime.world import World
 
 
@@ -42,6 +43,20 @@ class ShownActions:
         told = np.stack([number, *graph.nearest_source], axis=1).astype(np.int32)
         shown = self.behaviour, self.clip, self.source_frame, self.transition
         self._world, self._kept = world, keep((world.node, world.natural, told, *shown))
+
+    @property
+    def frames(self) -> PoseFrames:
+        """These together with what the world shows."""
+        root, rotations = self._world.show(1.0)
+        return PoseFrames(
+            root=root,
+            rotations=rotations,
+            facing=self._world.place[:, 2],
+            behaviour=self.behaviour,
+            clip=self.clip,
+            source_frame=self.source_frame,
+            transition=self.transition,
+        )
 
     def note(self) -> None:
         """Write what all characters do after the tick last made."""

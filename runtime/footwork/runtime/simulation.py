@@ -46,6 +46,7 @@ class Simulation:
         speeds: the slowest and the fastest that they may ask of each behaviour that takes a speed, m/s.
         vocabulary: reads commands.
         orders: those in force.
+        shown: what ``show`` returns.
 
     Raises:
         InputError: for a bundle without a converged steering table or without a frame of any behaviour.
@@ -76,6 +77,7 @@ class Simulation:
         self.orders = Orders(capacity)
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._actions = ShownActions(self.world, self.behaviours)
+        self.shown = self._actions.frames
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
@@ -282,14 +284,6 @@ class Simulation:
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
-        root, rotations = self.world.show(fraction)
-        actions = self._noted_actions()
-        return PoseFrames(
-            root=root,
-            rotations=rotations,
-            facing=self.world.place[:, 2],
-            behaviour=actions.behaviour,
-            clip=actions.clip,
-            source_frame=actions.source_frame,
-            transition=actions.transition,
-        )
+        self.world.show(fraction)
+        self._noted_actions()
+        return self.shown
