@@ -59,6 +59,7 @@ class ExactSteering:
         warp = turn_warp(self.graph)
         extra = float(adjustment_cost(warp.moments[there], turned(warp.pivot[there], turn)))
         qt = float(self.graph.smoothness[edge]) * math.exp(-extra / self.task.smoothness_sigma)
+        qt *= 1.0 if self.graph.natural[edge] else 1.0 - self.task.transition_price
         after = heading - float(self.graph.displacement[edge, 2]) - turn
         shown = self.graph.behaviour[there]
         behaviour, speed = (part[wanted] for part in self.requests)

@@ -218,3 +218,33 @@ def test_of_equal_edges_the_first_is_taken():
     place = np.zeros((1, 3))
     SteeringController(graph, level).choose(Situations(np.arange(1), np.ones(1, int), place, np.zeros(1), asked), moves)
     assert moves.edge[0] == graph.edge_start[1]
+
+
+def standing_ring() -> MotionGraph:
+    """Six frames that stand, one after the other, the third of them as like the first as can be; and one that walks."""
+    return replace(
+        ring_graph(7),
+        behaviour=np.array([0, 0, 0, 0, 0, 0, 1], np.int16),
+        edge_start=np.array([0, 2, 3, 5, 6, 7, 8, 9], np.int32),
+        target=np.array([1, 6, 2, 0, 3, 4, 5, 0, 0], np.int32),
+        cost=np.zeros(9, np.float32),
+        smoothness=np.ones(9, np.float32),
+        displacement=np.zeros((9, 3), np.float32),
+        natural=np.array([True, False, True, False, True, True, True, True, False]),
+    )
+
+
+@pytest.mark.parametrize("reward", ["product", "sum"])
+@pytest.mark.parametrize(("price", "seen"), [(0.0, 3), (0.001, 6)])
+def test_at_a_price_of_transitions_who_stands_goes_on_along_the_clip(reward, price, seen):
+    graph = standing_ring()
+    task = SteeringTask(("stop", "walk"), heading_bins=4, reward=reward, transition_price=price)
+    controller, moves, node = SteeringController(graph, solve(graph, task).compact), no_moves(1), 0
+    nodes = []
+    for _ in range(12):
+        at = np.array([node], np.int32)
+        asked = Situations(np.zeros(1, np.intp), at, np.zeros((1, 3)), np.zeros(1), np.zeros(1, np.int32))
+        controller.choose(asked, moves)
+        node = int(moves.target[0])
+        nodes.append(node)
+    assert len(set(nodes)) == seen

@@ -7,8 +7,8 @@ from footwork.motion.task import SteeringTask
 from footwork.training.task_options import TaskOptions
 
 
-def test_unless_told_otherwise_it_is_the_default_task():
-    assert TaskOptions().task() == SteeringTask()
+def test_unless_told_otherwise_it_is_the_default_task_at_a_small_price_of_transitions():
+    assert TaskOptions().task() == SteeringTask(transition_price=0.001)
 
 
 def test_degrees_and_parts_become_the_tasks():
@@ -30,7 +30,9 @@ def test_speeds_that_are_none_are_refused(text):
         TaskOptions(speeds=(text,)).task()
 
 
-@pytest.mark.parametrize("option", [{"warp": 7.0}, {"warp_stop": 2.0}, {"discount": 1.0}, {"reward": "best"}])
+@pytest.mark.parametrize(
+    "option", [{"warp": 7.0}, {"warp_stop": 2.0}, {"discount": 1.0}, {"transition_price": 1.0}, {"reward": "best"}]
+)
 def test_what_no_task_can_have_is_refused(option):
     with pytest.raises(InputError, match="task: "):
         TaskOptions(**option).task()

@@ -25,7 +25,7 @@ WARPED = replace(TASK, warp=math.radians(6.0), warp_share={"walk": 1.0, "stop": 
 AT_SPEEDS = {"speeds": {"walk": (0.4, 0.7, 1.2)}, "speed_sigma": 0.25, "speed_weight": 0.8}
 TASKS = {
     "product": TASK,
-    "sum": replace(TASK, reward="sum", weight=0.8),
+    "sum at a price": replace(TASK, reward="sum", weight=0.8, transition_price=0.05),
     "warped": WARPED,
     "warped sum": replace(WARPED, reward="sum", weight=1.3),
     "segments": replace(TASK, segment_ticks=3),

@@ -18,7 +18,12 @@ if TYPE_CHECKING:  # at run time they are imported where they are needed, so tha
 
 # What makes a character answer at once and go at a usual pace, and still builds while one waits.
 THRESHOLD, BRIDGES = 1.0, 2
-TASK = {"warp": math.radians(6.0), "reward": "sum", "speeds": {"walk": (1.2,), "run": (2.8,)}}
+TASK = {
+    "warp": math.radians(6.0),
+    "reward": "sum",
+    "transition_price": 0.001,
+    "speeds": {"walk": (1.2,), "run": (2.8,)},
+}
 
 
 def cache_folder() -> Path:

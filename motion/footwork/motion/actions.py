@@ -41,7 +41,7 @@ class Actions(NamedTuple):
         edge_start: CSR row starts.  # (N + 1,)
         target: CSR columns.  # (E,)
         yaw: how far each edge turns, radians.  # (E,)
-        smoothness: qt of each edge taken as it is.  # (E,)
+        smoothness: qt of each edge taken as it is, less SteeringTask.transition_price.  # (E,)
         behaviour: of each node.  # (N,)
         turn_limit: the largest extra turn on arriving at each node, radians.  # (N,)
         price: s / sigma of an extra turn there, divided by 4 sin^2(turn / 2).  # (N,)
@@ -75,7 +75,7 @@ def actions_of(graph: MotionGraph, task: SteeringTask, warp: TurnWarp | None = N
         edge_start=graph.edge_start,
         target=graph.target,
         yaw=np.ascontiguousarray(graph.displacement[:, 2]),
-        smoothness=graph.smoothness,
+        smoothness=np.where(graph.natural, 1.0, 1.0 - task.transition_price).astype(np.float32) * graph.smoothness,
         behaviour=graph.behaviour,
         turn_limit=limit,
         price=price,

@@ -40,6 +40,8 @@ class SteeringTask:
         reward: what control quality qc and transition quality qt make together: "product", qc qt, or "sum",
             qc + weight (qt - 1), which is how the product of their means changes where weight is mean qc / mean qt.
         weight: of the transition quality in a sum.
+        transition_price: the part of qt that a policy takes any transition to lose besides, however smooth, so that a
+            character does not go round and round among frames that are alike.
         warp: the largest extra turn of a tick, radians.
         warp_share: the part of it that frames of each behaviour may be turned by; none of it for those not named.
         warp_levels: among how many extra turns, evenly spread, the policy chooses.
@@ -52,10 +54,10 @@ class SteeringTask:
         one_shot: those that are done once when they are asked for; likewise.
 
     Raises:
-        InputError: for no behaviours, fewer than four headings, widths or a weight not above zero, a discount outside
-            [0, 1), an unknown reward, a warp outside 0..6 degrees, shares outside 0..1, an even number of levels or
-            more than 25, segments of no tick or more than 30, and speeds of behaviours that have no heading, outside
-            0..20 m/s, that do not rise or are more than 16.
+        InputError: for no behaviours, fewer than four headings, widths or a weight not above zero, a discount or a
+            price outside [0, 1), an unknown reward, a warp outside 0..6 degrees, shares outside 0..1, an even number of
+            levels or more than 25, segments of no tick or more than 30, and speeds of behaviours that have no heading,
+            outside 0..20 m/s, that do not rise or are more than 16.
     """
 
     behaviours: tuple[str, ...] = BEHAVIOURS
@@ -65,6 +67,7 @@ class SteeringTask:
     discount: float = 0.98
     reward: str = "product"
     weight: float = 1.0
+    transition_price: float = 0.0
     warp: float = 0.0
     warp_share: Mapping[str, float] = field(default_factory=lambda: dict(WARP_SHARES))
     warp_levels: int = 5
@@ -82,6 +85,8 @@ class SteeringTask:
             value = getattr(self, name)
             _require(math.isfinite(value) and value > 0.0, f"{name} is {value}, expected a positive number")
         _require(0.0 <= self.discount < 1.0, f"discount is {self.discount}, expected 0 <= discount < 1")
+        price = self.transition_price
+        _require(0.0 <= price < 1.0, f"transition_price is {price}, expected 0 <= price < 1")
         _require(self.reward in REWARDS, f"reward is {self.reward!r}, expected one of {', '.join(REWARDS)}")
         _require(
             1 <= self.segment_ticks <= MOST_TICKS, f"{self.segment_ticks} segment ticks, expected 1 to {MOST_TICKS}"

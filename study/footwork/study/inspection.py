@@ -107,6 +107,7 @@ def _table(table: PolicyTable) -> dict[str, Any]:
         "discount": task.discount,
         "heading_sigma_deg": float(np.degrees(task.heading_sigma)),
         "smoothness_sigma": task.smoothness_sigma,
+        "transition_price": task.transition_price,
         "speeds_m_s": {name: list(levels) for name, levels in task.speeds.items()},
         "speed_sigma": task.speed_sigma,
         "speed_weight": task.speed_weight,

@@ -40,7 +40,8 @@ class Oracle:
 
     def __init__(self, graph: MotionGraph, task: SteeringTask, bins: int = BINS) -> None:
         self.graph = graph
-        summed = task if task.additive else replace(task, reward="sum", weight=WEIGHT)
+        weight = task.weight if task.additive else WEIGHT
+        summed = replace(task, reward="sum", weight=weight, transition_price=0.0)
         self._warp = turn_warp(graph)
         self._looking = LookBack(actions_of(graph, summed, self._warp), onward_edges(graph), bins, discount=1.0)
 

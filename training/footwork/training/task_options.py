@@ -20,6 +20,8 @@ class TaskOptions:
         discount: The worth of the next tick's reward against this one's.
         reward: What control and smoothness make together: product, or sum for control + weight (smoothness - 1).
         weight: The weight of smoothness in a sum.
+        transition_price: The part of smoothness that every transition loses besides, so that a character which stands
+            goes on along its clip and does not go round among frames that are alike.
         warp: The most, in degrees a tick, that a character may be turned by more or less than its capture, 0 to 6.
         warp_stop: The part of that for frames that stand.
         warp_jump: The part of that for frames that jump.
@@ -36,6 +38,7 @@ class TaskOptions:
     discount: float = 0.98
     reward: str = "product"
     weight: float = 1.0
+    transition_price: float = 0.001
     warp: float = 0.0
     warp_stop: float = 0.25
     warp_jump: float = 0.5
@@ -60,6 +63,7 @@ class TaskOptions:
             discount=self.discount,
             reward=self.reward,
             weight=self.weight,
+            transition_price=self.transition_price,
             warp=math.radians(self.warp),
             warp_share={"stop": self.warp_stop, "walk": 1.0, "run": 1.0, "jump": self.warp_jump},
             warp_levels=self.warp_levels,
