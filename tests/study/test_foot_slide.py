@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -5,7 +7,14 @@ from footwork.motion import quaternion
 from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
 from footwork.motion.kinematics import forward
-from footwork.study.foot_slide import HEEL, slide_of_capture, slide_of_clip, slide_of_frames, soles
+from footwork.study.foot_slide import (
+    HEEL,
+    slide_of_capture,
+    slide_of_clip,
+    slide_of_frames,
+    slide_of_interpolation,
+    soles,
+)
 from motion_samples import ring_graph
 
 
@@ -73,3 +82,18 @@ def test_only_captured_frames_of_the_clips_meant_are_the_capture():
     # of six steps, two touch the frame between two and one goes from clip to clip
     assert slide_of_capture(mixed).seconds == pytest.approx(2 * 4 / 30)
     assert slide_of_capture(mixed, [0]).seconds == pytest.approx(2 * 1 / 30)
+
+
+def test_interpolated_frames_are_set_against_the_captured_ones_they_are_made_of():
+    # frames 0 and 1 are captured, 2 is a third of 0 and two thirds of 1; 3 comes from a frame that is not there
+    graph = ring_graph(6)
+    weight = np.ones(6, dtype=np.float32)
+    weight[2:4] = 1.0 / 3.0
+    displacement = graph.displacement.copy()
+    displacement[graph.natural, :2] = [[0.0, 0.01 * (n + 1)] for n in range(6)]
+    sources = {"frame": np.array([0, 1, 0, 5, 6, 7]), "other_frame": np.array([0, 1, 1, 9, 6, 7])}
+    mixed = replace(graph, weight=weight, displacement=displacement, contacts=np.ones((6, 2), dtype=bool), **sources)
+    own, captured = slide_of_interpolation(mixed)
+    assert own.seconds == captured.seconds == pytest.approx(2 / 30)
+    assert own.metres == pytest.approx(2 * 0.03, rel=1e-5)
+    assert captured.metres == pytest.approx(2 * (0.01 / 3 + 0.02 * 2 / 3), rel=1e-5)

@@ -67,8 +67,7 @@ def slide_of_steps(start: ArrayLike, end: ArrayLike, standing: ArrayLike, second
         seconds: from start to end.
     """
     moved = np.linalg.norm(np.asarray(end) - np.asarray(start), axis=-1).mean(axis=-1)
-    standing = np.asarray(standing, dtype=bool)
-    return Slide(float(moved[standing].sum()), float(standing.sum()) * seconds)
+    return _slide(moved, np.asarray(standing, dtype=bool), seconds)
 
 
 def slide_of_frames(soles_of_frames: ArrayLike, contacts: ArrayLike, fps: float) -> Slide:
@@ -91,12 +90,47 @@ def slide_of_capture(graph: MotionGraph, clips: ArrayLike | None = None, highest
         highest: a foot whose ball is higher than this is in the air whatever its contact says, metres.
     """
     meant = graph.original if clips is None else graph.original & np.isin(graph.clip, clips)
+    return _slide(*_natural_steps(graph, meant, highest))
+
+
+def slide_of_interpolation(graph: MotionGraph) -> tuple[Slide, Slide]:
+    """The slide of interpolated motion, and that of the captured frames it is made of, in shares of their weights.
+
+    Both over the interpolated frames whose sources the graph holds, and over feet that stand in all three.
+    """
+    moved, standing = _natural_steps(graph, np.ones(graph.node_count, dtype=bool))
+    captured = np.flatnonzero(graph.original)
+    frames = 1 + int(max(graph.frame.max(initial=0), graph.other_frame.max(initial=0)))
+    node = np.full((len(graph.clips), frames), -1)
+    node[graph.clip[captured], graph.frame[captured]] = captured
+    first, second = node[graph.clip, graph.frame], node[graph.other_clip, graph.other_frame]
+    made = np.flatnonzero(~graph.original & (first >= 0) & (second >= 0))
+    first, second, share = first[made], second[made], graph.weight[made, None]
+    together = standing[made] & standing[first] & standing[second]
+    sources = share * moved[first] + (1.0 - share) * moved[second]
+    return _slide(moved[made], together), _slide(sources, together)
+
+
+def _natural_steps(
+    graph: MotionGraph, meant: NDArray[np.bool_], highest: float = np.inf
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """How far each sole moves from each node meant to the next, metres, and whether it stands there.  # (N, feet) each
+
+    Nothing stands on the way to or from a node that is not meant, nor where no motion goes on.
+    """
     edges = np.flatnonzero(graph.natural & meant[graph.source] & meant[graph.target])
     source, target = graph.source[edges], graph.target[edges]
     places = graph.joint_places
     here = soles(graph.skeleton, places)
-    standing = graph.contacts & (places[:, graph.skeleton.feet[:, 1], 1] <= highest)
+    on_ground = graph.contacts & (places[:, graph.skeleton.feet[:, 1], 1] <= highest)
     step = graph.displacement[edges].astype(np.float64)[:, None, None]
     x, z = turn(here[target][..., 0], here[target][..., 1], step[..., 2])
     ahead = np.stack([x, z], axis=-1) + step[..., :2]
-    return slide_of_steps(here[source], ahead, standing[source] & standing[target], TICK)
+    moved, standing = np.zeros(graph.contacts.shape), np.zeros(graph.contacts.shape, dtype=bool)
+    moved[source] = np.linalg.norm(ahead - here[source], axis=-1).mean(axis=-1)
+    standing[source] = on_ground[source] & on_ground[target]
+    return moved, standing
+
+
+def _slide(moved: NDArray[np.float64], standing: NDArray[np.bool_], seconds: float = TICK) -> Slide:
+    return Slide(float(moved[standing].sum()), float(standing.sum()) * seconds)

@@ -26,7 +26,7 @@ from footwork.study.reproduction.row import (
     Table,
     judged,
 )
-from footwork.study.reproduction.slides import slide_judgements
+from footwork.study.reproduction.slides import slide_judgements, slides_of_interpolation
 from footwork.study.reproduction.words import joined_words
 from footwork.study.reproduction.workbench import BUILT_AT, LARGE, Workbench
 from footwork.study.tour import middles, tour_labels
@@ -58,6 +58,8 @@ def run(bench: Workbench) -> Result:
             f"comes through the middle of a captured stretch of each kind, and goes on there for {GO_ON} frames. Poses "
             "are shown as they are in the graph: nothing is blended, smoothed or held to the ground.",
             "The frames of a path between two captured ones are labelled as the heavier one.",
+            "Slide between jumps is above that of all source clips where a path comes through captured frames that "
+            "slide more than others. The last two columns are of all interpolated frames of the graph.",
             *([f"Not in the largest part of {LARGE}: {joined_words(missing)}."] if missing else []),
             *bench.notes,
         ],
@@ -84,12 +86,13 @@ def _behaviours(graph: MotionGraph, labels: Sequence[str]) -> NDArray[np.int64]:
 
 
 def _quality(graph: MotionGraph, edges: NDArray[np.int64]) -> dict[str, Any]:
-    return path_quality(graph, edges) | {"slide_between_jumps_cm_s": slide_inside(graph, edges).cm_per_second}
+    between = {"slide_between_jumps_cm_s": slide_inside(graph, edges).cm_per_second}
+    return path_quality(graph, edges) | between | slides_of_interpolation(graph)
 
 
 def _slides(quality: dict[str, Any]) -> dict[str, float | None]:
-    names = {"slide": "foot_slide_cm_s", "between": "slide_between_jumps_cm_s", "source": "source_foot_slide_cm_s"}
-    return {name: quality[key] for name, key in names.items()}
+    made = {name: quality[f"slide_{name}_cm_s"] for name in ("interpolated", "made_of")}
+    return made | {"slide": quality["foot_slide_cm_s"], "source": quality["source_foot_slide_cm_s"]}
 
 
 def _smooth(names: Sequence[str], quality: Sequence[dict[str, Any]]) -> Judgement:
@@ -112,6 +115,8 @@ def _table(names: Sequence[str], quality: Sequence[dict[str, Any]]) -> Table:
             ("slide", "cm/s", 1),
             ("slide between jumps", "cm/s", 1),
             ("slide of the source", "cm/s", 1),
+            ("slide of interpolation", "cm/s", 1),
+            ("of what it is made of", "cm/s", 1),
         )
     ]
     lines = []
@@ -119,7 +124,8 @@ def _table(names: Sequence[str], quality: Sequence[dict[str, Any]]) -> Table:
         cost, jump = one["transition_s"] or {}, one["pose_jump_cm"] or {}
         costs = (cost.get("worst"), cost.get("mean"), jump.get("worst"))
         slides = (one["foot_slide_cm_s"], one["slide_between_jumps_cm_s"], one["source_foot_slide_cm_s"])
-        lines.append([name, one["seconds"], one["transitions"], *costs, *slides])
+        made = (one["slide_interpolated_cm_s"], one["slide_made_of_cm_s"])
+        lines.append([name, one["seconds"], one["transitions"], *costs, *slides, *made])
     return Table("The paths: s of their transitions, root mean square jump of the pose, foot slide", columns, lines)
 
 

@@ -14,7 +14,7 @@ from footwork.study.reproduction.motion_sets import SETS
 from footwork.study.reproduction.playing import jerkiness, played_clip, slide_inside
 from footwork.study.reproduction.reduced import well_connected_motion_graph
 from footwork.study.reproduction.row import OURS, Cause, Column, Judgement, Result, Row, Table, judged
-from footwork.study.reproduction.slides import slide_judgements
+from footwork.study.reproduction.slides import slide_judgements, slides_of_interpolation
 from footwork.study.reproduction.workbench import BUILT_AT, LARGE, MG, WCMG, Workbench
 
 THRESHOLDS = {MG: 1.0, WCMG: BUILT_AT}
@@ -42,6 +42,8 @@ def run(bench: Workbench) -> Result:
             ("slide between jumps", "cm/s", 1),
             ("slide, inertialised", "cm/s", 1),
             ("slide of source", "cm/s", 1),
+            ("slide of interpolation", "cm/s", 1),
+            ("of what it is made of", "cm/s", 1),
             ("jerk", "mm", 1),
             ("jerk, inertialised", "mm", 1),
             ("jerk of source", "mm", 1),
@@ -78,6 +80,7 @@ def _measured(graph: MotionGraph, bench: Workbench, name: str) -> dict[str, Any]
         "slide_between_jumps_cm_s": slide_inside(graph, edges).cm_per_second,
         "slide_inertialised_cm_s": slide_of_clip(smooth).cm_per_second,
         "slide_of_source_cm_s": quality["source_foot_slide_cm_s"],
+        **slides_of_interpolation(graph),
         "jerk_mm": _calm(jerkiness(bare)),
         "jerk_inertialised_mm": _calm(jerkiness(smooth)),
         "jerk_of_source_mm": _calm(source),
@@ -95,7 +98,8 @@ def _calm(off: NDArray[np.float64]) -> float:
 
 
 def _slides(numbers: dict[str, dict[str, Any]]) -> list[Judgement]:
-    names = {"slide": "slide_cm_s", "between": "slide_between_jumps_cm_s", "source": "slide_of_source_cm_s"}
+    names = {name: f"slide_{name}_cm_s" for name in ("interpolated", "made_of")}
+    names |= {"slide": "slide_cm_s", "source": "slide_of_source_cm_s"}
     return slide_judgements({name: {key: one[of] for key, of in names.items()} for name, one in _well(numbers)})
 
 
