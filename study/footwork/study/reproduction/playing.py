@@ -1,4 +1,4 @@
-"""Paths as the runtime shows them: how jerky they are with and without inertialisation, and how feet slide on them."""
+"""Paths bare and as the runtime shows them: how jerky they are, and how feet slide on them."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +14,19 @@ from footwork.study.path_quality import slide_by_step
 from footwork.study.placing import clip_of_poses
 
 
-def played_clip(graph: MotionGraph, edges: NDArray[np.int64], *, inertialise: bool) -> Clip:
-    """The poses that a character shows on its way along a path, from after its first tick on.  # (E',) -> E' frames
+def played_clip(graph: MotionGraph, edges: NDArray[np.int64], *, as_shown: bool) -> Clip:
+    """The poses of a character on its way along a path, from after its first tick on.  # (E',) -> E' frames
+
+    Args:
+        graph: the graph.
+        edges: the path.
+        as_shown: inertialised and with feet held, as the server shows them; as they are in the graph otherwise.
 
     Raises:
         InputError: for edges that are no path.
     """
     nodes = path_nodes(graph, edges)
-    world = World(graph, 1, inertialise=inertialise)
+    world = World(graph, 1, inertialise=as_shown, foot_lock=as_shown)
     slot = world.spawn(int(nodes[0]), 0.0, 0.0, 0.0)
     root, rotations = [], []
     for edge in edges.astype(np.int32):

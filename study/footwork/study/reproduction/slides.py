@@ -19,8 +19,8 @@ def slide_judgements(found: Mapping[str, Mapping[str, Any]]) -> list[Judgement]:
     """
     made = "Interpolated motion's feet slide no more than those of the captured frames it is made of."
     return [
-        _judged(made, "interpolated", "made_of", found, None),
-        _judged(
+        slide_judgement(made, "interpolated", "made_of", found, None),
+        slide_judgement(
             "Feet slide no more than in the captures, transitions included.", "slide", "source", found, Cause.CLAIM
         ),
     ]
@@ -32,9 +32,10 @@ def slides_of_interpolation(graph: MotionGraph) -> dict[str, float | None]:
     return {"slide_interpolated_cm_s": own.cm_per_second, "slide_made_of_cm_s": sources.cm_per_second}
 
 
-def _judged(
+def slide_judgement(
     claim: str, what: str, source: str, found: Mapping[str, Mapping[str, Any]], cause: Cause | None
 ) -> Judgement:
+    """Whether one slide is no more than another, within NEAR_SOURCE, wherever both are known."""
     known = {name: one for name, one in found.items() if one[what] is not None and one[source] is not None}
     if not known:
         return unjudged(claim, "No foot stands on the paths or in their source clips.", Cause.DATA)
