@@ -29,6 +29,7 @@ _FIGURES: Sequence[tuple[str, str, int, tuple[str, ...]]] = (
     ("p99", "µs", 2, ("batch", "decision_us", "p99")),
     ("table", "MB", 1, ("table_mb",)),
     ("clips", "MB", 1, ("clip_mb",)),
+    ("made in", "s", 0, ("made_s",)),
 )
 
 

@@ -5,8 +5,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from footwork.controllers.controller import present_behaviours
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
+from footwork.motion.graph import MotionGraph
+from footwork.motion.mirror import mirrored
 from footwork.motion.task import SteeringTask
 from footwork.motion.trace import SOURCE_HZ, Trace, read_trace
 from footwork.study.contender import Contender
@@ -14,9 +17,14 @@ from footwork.study.motion_matching.tuning import split
 from footwork.study.reproduction.workbench import Workbench
 from footwork.study.scoring import score
 from footwork.study.showing import Showing
-from footwork.training.build import build_bundle
+from footwork.training.bridges import bridged
 from footwork.training.dataset import Dataset, load_clips
 from footwork.training.graph_options import GraphOptions
+from footwork.training.player_model import learned
+from footwork.training.stages import Stages
+from footwork.training.standard_recipe import build_standard
+from footwork.training.value_iteration import solve
+from footwork.training.well_connected_recipe import build_well_connected
 
 STANDARD, WELL_CONNECTED = "standard", "well-connected"
 QUICK_SET, QUICK_SECONDS, QUICK_TRACES = "dataset1", 20.0, 2
@@ -34,7 +42,6 @@ class Setting:
         mirror: whether clips are played with left and right exchanged, too.
         warp: the largest extra turn of a tick, degrees.
         bridges: ways from every frame to each other behaviour (``GraphOptions.bridges``).
-        pairing: which stretches a well-connected graph interpolates (``GraphOptions.pairing``).
         reward: of its policy (``SteeringTask.reward``).
         weight: of the transition quality, where the reward is a sum.
     """
@@ -44,14 +51,13 @@ class Setting:
     mirror: bool = False
     warp: float = 0.0
     bridges: int = 0
-    pairing: str = "ratio"
     reward: str = "product"
     weight: float = 1.0
 
     @property
     def options(self) -> GraphOptions:
         """How its graph is built."""
-        only = {"mu": 5.0, "pairing": self.pairing} if self.graph == WELL_CONNECTED else {}
+        only: dict[str, Any] = {"mu": 5.0} if self.graph == WELL_CONNECTED else {}
         return GraphOptions(self.graph, self.threshold, mirror=self.mirror, bridges=self.bridges, **only)
 
     @property
@@ -115,17 +121,38 @@ def bundle_of(bench: Workbench, motions: Dataset, setting: Setting) -> Bundle | 
 
     Its policy has learned from every other player how they change their mind.
     """
-    seen = split(players_of(bench))[0]
+    graph = graph_of(bench, motions, setting.options)
+    if graph is None:
+        return None
 
-    def build() -> Bundle | None:
+    def solved() -> Bundle:
+        player = learned(split(players_of(bench))[0], setting.task, present_behaviours(graph))
+        table = solve(graph, setting.task, player=player, progress=lambda share: bench.tell("policy", share))
+        return Bundle(graph, {"steering": table.require_converged().compact})
+
+    return bench.once(("bundle", id(motions), setting), solved)
+
+
+def graph_of(bench: Workbench, motions: Dataset, options: GraphOptions) -> MotionGraph | None:
+    """A motion graph, None where it cannot be walked without end; each is built once.
+
+    Bridges are added to the well-connected graph that there is already: all of it can be walked without end.
+    """
+
+    def build() -> MotionGraph | None:
+        clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
+        recipe = build_well_connected if options.graph == WELL_CONNECTED else build_standard
         try:
-            return build_bundle(motions, setting.options, task=setting.task, players=seen, progress=bench.tell)[0]
+            return recipe(clips, options, SteeringTask(), Stages(bench.tell)).graph
         except InputError as error:
             if "without end" not in str(error):
                 raise
             return None
 
-    return bench.once(("bundle", id(motions), setting), build)
+    if options.graph == WELL_CONNECTED and options.bridges:
+        whole = graph_of(bench, motions, replace(options, bridges=0))
+        return whole and bridged(whole, options.bridges, SteeringTask().smoothness_sigma)
+    return bench.once(("graph", id(motions), options), build)
 
 
 def score_of(
