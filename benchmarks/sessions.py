@@ -1,15 +1,17 @@
 """Many sessions of one character each on one server, for long: who starves, how late ticks are, whether memory grows.
 
-    python benchmarks/sessions.py [--sessions 500] [--seconds 600] [--rate 60] [BUNDLE]
+    python benchmarks/sessions.py [--sessions 500] [--seconds 600] [--rate 60] [--realtime] [BUNDLE]
 
-Prints one JSON object. The server is a process of its own; clients are DEALER sockets on TCP loopback, shared out to
-half as many processes as there are cores. Every session sends a command twice a second, on its own beat. The baseline,
+Prints one JSON object. The server is a process of its own, and so are its clients, which share the cores with it and so
+speak ZMTP on bare TCP sockets (loopback). Every session sends a command twice a second, on its own beat. The baseline,
 in the same run before it: an empty loop on the same deadlines.
 
-A session starves where a second passes without a pose. Without a bundle the tests' toy one is played.
+A session starves where a second passes without a pose. ``cores`` tells how much of a core each took: the server's loop,
+the rest of the server, which is libzmq's thread, and the clients. Without a bundle the tests' toy one is played.
 """
 
 import argparse
+import heapq
 import json
 import os
 import platform
@@ -20,15 +22,15 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-import zmq
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 from footwork.motion.bundle import read_bundle
 from footwork.protocol import messages as m
 from footwork.protocol.codec import decode_from_server, encode
 from footwork.runtime.limits import Limits
+from footwork.runtime.realtime import take_realtime
 from footwork.runtime.server import Server
+from support.bare_clients import BareClient, Readable
 from support.machine import resident_bytes
 from support.processes import idle, in_process, lateness_shares
 from toy_bundle import toy_bundle
@@ -36,12 +38,14 @@ from toy_bundle import toy_bundle
 COMMAND_EVERY = 0.5
 STARVED = 1.0
 FIRST = 60.0  # seconds, after which memory shall not grow
+POSE = b"\xa4type\xa4pose"  # after the head of its map
 
 
-def serve(path: str, rate: int, sessions: int, pipe: Connection) -> None:
+def serve(path: str, rate: int, sessions: int, realtime: bool, pipe: Connection) -> None:
     """Process: a server until the pipe says something; tells its address first, its figures last."""
     limits = Limits(connections=2 * sessions, sessions=sessions, characters=sessions, session_characters=1)
     server = Server(read_bundle(path) if path else toy_bundle(), bind="tcp://127.0.0.1:0", rate=rate, limits=limits)
+    problems = take_realtime() if realtime else []
     pipe.send(server.address)
     memory, began = [], time.monotonic()
 
@@ -50,76 +54,67 @@ def serve(path: str, rate: int, sessions: int, pipe: Connection) -> None:
             memory.append(resident_bytes())
         return pipe.poll()
 
+    loop, whole = time.thread_time(), time.process_time()
     server.run(until=until)
-    pipe.send(server.summary() | {"lateness_us": lateness_shares(server.lateness_us), "memory": memory})
+    loop, whole = time.thread_time() - loop, time.process_time() - whole
+    took = {"server_loop": loop, "server_transport": whole - loop}
+    figures = {"lateness_us": lateness_shares(server.lateness_us), "memory": memory, "took": took}
+    pipe.send(server.summary() | figures | {"not_permitted": problems})
 
 
-class Session:
-    """One client's socket, and what came."""
+class Session(BareClient):
+    """One client's connection, and what came."""
 
-    def __init__(self, address: str, beat: float) -> None:
-        self.socket = zmq.Context.instance().socket(zmq.DEALER)
-        self.socket.set(zmq.LINGER, 0)
-        self.socket.connect(address)
-        self.sequence, self.beat, self.poses, self.lost, self.last, self.longest = 1, beat, 0, 0, 0.0, 0.0
-        self.refused = 0
-        self.say(m.Hello(version=1))
-        self.say(m.Spawn(sequence=1, character=0))
+    def __init__(self, address: str) -> None:
+        super().__init__(address)
+        self.sequence, self.poses, self.last, self.longest, self.refused = 1, 0, 0.0, 0.0, 0
+        self.send(encode(m.Hello(version=1)))
+        self.send(encode(m.Spawn(sequence=1, character=0)))
 
-    def say(self, message: m.FromClient) -> None:
-        """Send it."""
-        self.socket.send(encode(message))
+    def command(self, heading: float) -> None:
+        """Ask for another heading."""
+        self.sequence += 1
+        self.send(encode(m.Command(sequence=self.sequence, character=0, heading=heading, behaviour="walk")))
 
-    def command(self, now: float, rng: random.Random) -> None:
-        """Ask for another heading, if it is time to."""
-        if now >= self.beat:
-            self.beat, self.sequence = self.beat + COMMAND_EVERY, self.sequence + 1
-            self.say(m.Command(sequence=self.sequence, character=0, heading=rng.uniform(-3, 3), behaviour="walk"))
-
-    def take(self, now: float) -> None:
-        """Read what is there."""
-        while True:
-            try:
-                data = self.socket.recv(zmq.NOBLOCK)
-            except zmq.Again:
-                return
-            message = decode_from_server(data)
-            if isinstance(message, m.Pose):
+    def read(self, now: float) -> None:
+        """Look at what is there; of poses no further than what they are, as all of them would be too much work."""
+        for data in self.take():
+            if data.startswith(POSE, 1):
                 self.longest = max(self.longest, now - self.last) if self.poses else 0.0
                 self.poses, self.last = self.poses + 1, now
-            elif isinstance(message, m.Error | m.Bye):
-                self.refused += 1
+            else:
+                self.refused += isinstance(decode_from_server(data), m.Error | m.Bye)
 
 
-def play(address: str, sessions: int, seconds: float, seed: int, pipe: Connection) -> None:
-    """Process: a share of the clients; tells what each got."""
-    rng, began = random.Random(seed), time.monotonic()
-    clients = [Session(address, began + 2.0 + rng.uniform(0.0, COMMAND_EVERY)) for _ in range(sessions)]
-    poller = zmq.Poller()
-    for client in clients:
-        poller.register(client.socket, zmq.POLLIN)
-    by_socket = {client.socket: client for client in clients}
+def play(address: str, sessions: int, seconds: float, pipe: Connection) -> None:
+    """Process: the clients; tells what each got, and how much processor time they took in all."""
+    rng, began = random.Random(0), time.monotonic()
+    clients = [Session(address) for _ in range(sessions)]
+    readable = Readable(clients)
+    beats = [(began + 2.0 + COMMAND_EVERY * number / sessions, number) for number in range(sessions)]
     while (now := time.monotonic()) < began + seconds:
-        for socket, _ in poller.poll(5):
-            by_socket[socket].take(now)
-        for client in clients:
-            client.command(now, rng)
+        while beats[0][0] <= now:
+            due, number = heapq.heappop(beats)
+            heapq.heappush(beats, (due + COMMAND_EVERY, number))
+            clients[number].command(rng.uniform(-3.0, 3.0))
+        for client in readable.wait(max(0.0, beats[0][0] - now)):
+            client.read(now)
+    pipe.send(([(client.poses, client.longest, client.refused) for client in clients], time.process_time()))
     for client in clients:
-        client.say(m.Bye())
-    pipe.send([(client.poses, client.longest, client.refused) for client in clients])
-    time.sleep(0.5)
+        client.send(encode(m.Bye()))
+    pipe.recv()
 
 
-def served(path: str, rate: int, sessions: int, seconds: float) -> dict[str, Any]:
+def served(path: str, rate: int, sessions: int, seconds: float, realtime: bool) -> dict[str, Any]:
     """Figures of the server and of its clients."""
-    process, pipe = in_process(serve, path, rate, sessions)
-    address, count = pipe.recv(), max(1, (os.cpu_count() or 2) // 2)
-    shares = [sessions // count + (k < sessions % count) for k in range(count)]
-    players = [in_process(play, address, share, seconds, k) for k, share in enumerate(shares)]
-    got = [one for _, ours in players for one in ours.recv()]
+    process, pipe = in_process(serve, path, rate, sessions, realtime)
+    players, theirs = in_process(play, pipe.recv(), sessions, seconds)
+    got, took = theirs.recv()
     pipe.send("enough")
     summary = pipe.recv()
-    process.join()
+    theirs.send("enough")
+    for one in (process, players):
+        one.join()
     memory = summary.pop("memory")
     after = memory[min(len(memory) - 1, int(FIRST / 5.0))]
     return summary | {
@@ -127,6 +122,7 @@ def served(path: str, rate: int, sessions: int, seconds: float) -> dict[str, Any
         "poses_a_second": {"least": min(got)[0] / seconds, "most": max(got)[0] / seconds},
         "longest_wait_s": round(max(longest for _, longest, _ in got), 3),
         "refused_to_clients": sum(refused for _, _, refused in got),
+        "cores": {name: round(used / seconds, 3) for name, used in (summary.pop("took") | {"clients": took}).items()},
         "late_share": summary["late_ticks"] / max(1, summary["ticks"]),
         "memory_mb": {"after_a_minute": after / 1e6, "at_the_end": memory[-1] / 1e6, "growth": memory[-1] / after},
     }
@@ -139,11 +135,12 @@ def main() -> None:
     parser.add_argument("--sessions", type=int, default=500)
     parser.add_argument("--seconds", type=float, default=60.0, help="600 for figures to report (default 60)")
     parser.add_argument("--rate", type=int, default=60)
+    parser.add_argument("--realtime", action="store_true", help="as footwork serve --realtime, where permitted")
     options = parser.parse_args()
     report: dict[str, Any] = {"machine": platform.machine(), "cores": os.cpu_count(), "load": os.getloadavg()[0]}
     report |= {"sessions": options.sessions, "seconds": options.seconds, "rate": options.rate}
     report["empty_loop_lateness_us"] = idle(options.rate, min(60.0, options.seconds))
-    report["served"] = served(options.bundle, options.rate, options.sessions, options.seconds)
+    report["served"] = served(options.bundle, options.rate, options.sessions, options.seconds, options.realtime)
     print(json.dumps(report))
 
 
