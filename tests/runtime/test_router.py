@@ -68,6 +68,15 @@ def test_a_message_of_very_many_frames_is_read_in_pieces(router, dealer):
     assert 4998 // 256 <= pieces <= 5000 // 256 + 1
 
 
+def test_the_rest_of_a_message_is_not_taken_for_another(router, dealer):
+    dealer.send_multipart([b"part"] * 600)
+    assert router.poll(20000)
+    assert len(router.receive()) == 3
+    for _ in range(5):
+        router.poll(1)
+        assert router.receive() is None
+
+
 def test_a_peer_that_does_not_read_loses_messages_and_takes_no_time(router, dealer):
     dealer.send(b"hello")
     router.poll(20000)

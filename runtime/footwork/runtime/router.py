@@ -24,12 +24,12 @@ _SEND_BUFFER = 1 << 16
 _HEARTBEAT_MS = 2000
 _HANDSHAKE_MS = 5000
 MOST_CONNECTIONS = 1024
-# A message has two frames, the peer's name and the bytes. One of very many frames is read no further than this ...
-_FRAMES = 3
-# ... and what is left of it is passed over so many frames at a time, so that it holds no tick up.
+# A message has two frames, the peer's name and the bytes. What another has beyond a third is passed over, so many
+# frames at a time, so that it holds no tick up.
 _PASSED_OVER = 256
 # Operators of flags are slow: each is made once.
-_INCOMING, _NOBLOCK, _MORE = int(zmq.POLLIN), int(zmq.NOBLOCK), int(zmq.SNDMORE | zmq.NOBLOCK)
+_EVENTS, _INCOMING = int(zmq.EVENTS), int(zmq.POLLIN)
+_NOBLOCK, _MORE = int(zmq.NOBLOCK), int(zmq.SNDMORE | zmq.NOBLOCK)
 
 
 class Sent(Enum):
@@ -82,12 +82,14 @@ class Router:
         for option, value in options.items():
             self._socket.set(option, value)
         self._authenticator = None if keys is None else self._guard(keys)
-        # Without what pyzmq's own class adds, which doubles what sending takes: a server sends little else.
-        self._send = super(zmq.Socket, self._socket).send
+        # Without what pyzmq's own class adds, which doubles what these take: a server does little else.
+        bare = super(zmq.Socket, self._socket)
+        self._send, self._receive, self._get = bare.send, bare.recv, bare.get
         self.connections = Connections(self._socket, most)
         self._poller = self._watching()
         self.bytes_in = self.bytes_out = 0
         self._unread = False  # whether there may be more of a message than was read
+        self._there = False  # whether a message is known to be there
         try:
             self._socket.bind(bind)
         except zmq.ZMQError as error:
@@ -133,8 +135,9 @@ class Router:
             if self._authenticator is not None and self._authenticator.socket in ready:
                 self._authenticator.answer()
             milliseconds = int(1000.0 * (end - time.monotonic()))
-            if self._socket in ready or milliseconds <= 0:
-                return self._socket in ready
+            self._there = self._socket in ready
+            if self._there or milliseconds <= 0:
+                return self._there
 
     def look(self) -> None:
         """Cut connections that are silent or pile up bytes; to be called every tick or so."""
@@ -153,24 +156,22 @@ class Router:
         """The next message's first frames, the peer's name before all; None where there is none for now."""
         if self._unread and not self._pass_over():
             return None
-        if not int(self._socket.get(zmq.EVENTS)) & _INCOMING:
+        if not (self._there or int(self._get(_EVENTS)) & _INCOMING):
             return None
-        frames = [self._socket.recv(zmq.NOBLOCK)]
-        if not self.connections.knows(frames[0]):
-            data = self._socket.recv(zmq.NOBLOCK, copy=False)
-            self.connections.meet(frames[0], data)
-            frames.append(data.bytes)
-        while len(frames) < _FRAMES and self._socket.get(zmq.RCVMORE):
-            frames.append(self._socket.recv(zmq.NOBLOCK))  # all of a message is there once its first frame is
-        self._unread = len(frames) == _FRAMES
-        self.bytes_in += len(frames[1])
-        return frames
+        # All of a message is there once its first frame is, and a second one always follows the peer's name.
+        peer, frame = self._receive(_NOBLOCK), self._receive(_NOBLOCK, False)
+        self._there, self._unread = False, frame.more
+        if not self.connections.knows(peer):
+            self.connections.meet(peer, frame)
+        data = frame.bytes
+        self.bytes_in += len(data)
+        return [peer, data, self._receive(_NOBLOCK)] if self._unread else [peer, data]
 
     def _pass_over(self) -> bool:
         """Pass over what is left of a message with too many frames; whether all of it is."""
         for _ in range(_PASSED_OVER):
             if not self._socket.get(zmq.RCVMORE):
-                self._unread = False
+                self._unread = self._there = False  # what is there may have been the rest of that message
                 return True
             self._socket.recv(zmq.NOBLOCK)
         return False
