@@ -255,6 +255,17 @@ def test_a_reward_that_is_the_same_whatever_is_done_is_refused(reward, shown, sa
         solve(graph, SteeringTask(behaviours=("stop", "walk"), reward=reward))
 
 
+@pytest.mark.parametrize("player", PLAYERS)
+def test_from_values_that_are_nearly_right_it_is_there_sooner(player):
+    graph, model = random_steering_graph(5, nodes=8, degree=3), PLAYERS[player]
+    cold = solve(graph, WARPED, player=model, tolerance=1e-5)
+    warm = solve(graph, WARPED, player=model, start=cold.values + 0.01, tolerance=1e-5)
+    np.testing.assert_allclose(warm.values, cold.values, atol=2e-4)
+    assert warm.sweeps < cold.sweeps
+    with pytest.raises(InputError, match="values to start from"):
+        solve(graph, WARPED, start=cold.values[:, :, 1:])
+
+
 def test_a_discount_of_one_is_refused():
     with pytest.raises(InputError, match=r"discount is 1\.0, expected 0 <= discount < 1"):
         SteeringTask(discount=1.0)

@@ -59,7 +59,8 @@ def tables_without(
             )
         player = learned(others, table.task, present_behaviours(graph))
         tell = _telling(progress, f"without {known[digest].name}", done, len(known))
-        tables[digest] = solve(graph, table.task, player=player, progress=tell).require_converged().compact
+        solved = solve(graph, table.task, player=player, start=table.values, progress=tell)
+        tables[digest] = solved.require_converged().compact
     return tables
 
 

@@ -11,6 +11,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from footwork.errors import InputError
 from footwork.motion.actions import Actions, onward_actions
+from footwork.motion.arrays import require_finite, require_shape
 from footwork.motion.player_model import PlayerModel, persistent_player
 from footwork.motion.requests import holding_speed
 from footwork.motion.task import SteeringTask
@@ -87,6 +88,18 @@ class Sweeper:
     def values(self) -> NDArray:
         """The current values.  # (N, Q, H)"""
         return self._copies[self._now, :, :-1].transpose(0, 2, 1)
+
+    def start_from(self, values: NDArray) -> None:
+        """Put values in the place of the current ones.  # (N, Q, H)
+
+        Raises:
+            InputError: for another shape or values that are not finite.
+        """
+        require_shape(values, self.values.shape, "values to start from", "task")
+        require_finite(values, "values to start from", "task")
+        now = self._copies[self._now]
+        now[:, :-1] = values.transpose(0, 2, 1)
+        now[:, -1] = now[:, 0]
 
     def improve(self) -> float:
         """Make a greedy sweep, and add what it shows all values of a request to lack alike.

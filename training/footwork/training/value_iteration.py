@@ -56,6 +56,7 @@ def solve(
     task: SteeringTask,
     *,
     player: PlayerModel | None = None,
+    start: NDArray | None = None,
     tolerance: float = TOLERANCE,
     max_sweeps: int = MAX_SWEEPS,
     progress: Callable[[float], None] | None = None,
@@ -68,20 +69,20 @@ def solve(
         graph: every node has an edge.
         task: axes, reward, actions and discount.
         player: how commands change from tick to tick; None where they never do.
+        start: values to begin with, such as those of a player who is much alike; zeros where not given.  # (N, Q, H)
         tolerance: the table is converged where its residual is under this (but for the rounding to float32).
         max_sweeps: stop after so many; the table then says that it is not converged.
         progress: told the share of the work done after each greedy sweep.
 
     Raises:
-        InputError: for other behaviours than the graph's, a node without edges, a player model of other axes, a
-            reward that is the same whatever is done, or more states than memory has room for.
+        InputError: for other behaviours than the graph's, a node without edges, a player model or a start of other
+            axes, a reward that is the same whatever is done, or more states than memory has room for.
     """
     actions, onward = _checked_actions(graph, task), onward_edges(graph)
     if player is not None:
         require_axes(player, task)
-    solution = fixed_point(
-        actions, onward, task, player=player, tolerance=0.5 * tolerance, max_sweeps=max_sweeps, progress=progress
-    )
+    how = {"tolerance": 0.5 * tolerance, "max_sweeps": max_sweeps, "progress": progress}
+    solution = fixed_point(actions, onward, task, player=player, start=start, **how)
     values = solution.values.astype(np.float32)
     residual, best = backed_up(values, actions, onward, task, player, spans_of(actions.edge_start))
     rounding = 2.0 * float(np.spacing(np.abs(values).max()))
@@ -95,6 +96,7 @@ def fixed_point(
     task: SteeringTask,
     *,
     player: PlayerModel | None = None,
+    start: NDArray | None = None,
     tolerance: float = TOLERANCE,
     max_sweeps: int = MAX_SWEEPS,
     progress: Callable[[float], None] | None = None,
@@ -105,10 +107,12 @@ def fixed_point(
     enough for the tolerance, in float64 otherwise.
 
     Raises:
-        InputError: for more states than memory has room for.
+        InputError: for more states than memory has room for, and a start of another shape.
     """
     with ThreadPoolExecutor(THREADS) as pool:
         sweeper = Sweeper(actions, onward, task, player, _precision(task, tolerance), pool)
+        if start is not None:
+            sweeper.start_from(start)
         residual, improvements, first, done = math.inf, 0, 0.0, 0.0
         while residual >= tolerance and sweeper.sweeps < max_sweeps:
             if improvements:
