@@ -64,7 +64,7 @@ class Run:
     """A fresh host, in lock-step or by the clock, with both peers greeted."""
 
     def __init__(self, lockstep: bool) -> None:
-        for slot in SIMULATION.world.slots:
+        for slot in SIMULATION.world.slots.tolist():
             SIMULATION.remove(slot)
         SIMULATION.tick = 0
         self.host, self.now, self.spoke = Host(SIMULATION, 30, LIMITS, lockstep=lockstep), 0, set()
