@@ -3,10 +3,10 @@
     pip install atheris
     python tests/fuzzing/decoder.py -runs=1000000
 
-Options are LibFuzzer's. Each input is what two clients of one server do, one thing after the other (``things_in``).
+Options are LibFuzzer's; a file is run again, a folder keeps inputs that led to something new. Each input is what two clients of one server do, one thing after the other (``things_in``).
 Anything raised but a refusal ends the run with the input that did it, and so do an answer that no client could read,
 and a peer that is told something and had said nothing. LibFuzzer itself stops at a memory limit of 2 GB, or at an input
-that takes over a second.
+that takes over ten seconds.
 
 Bytes changed blindly are hardly ever messages, and msgspec's own code, which is C, guides nobody to them. So most
 changes are made to whole messages and their fields; some still are to bytes.
@@ -144,8 +144,10 @@ def main() -> None:
         for number, thing in enumerate(said):
             (Path(folder) / str(number)).write_bytes(joined(False, [thing, (TICK, b"")]))
         (Path(folder) / "all").write_bytes(joined(True, said))
-        limits = ["-timeout=1", "-rss_limit_mb=2048", f"-max_len={MOST_BYTES}"]
-        atheris.Setup([sys.argv[0], *limits, *sys.argv[1:], folder], one_input, custom_mutator=changed)
+        limits = ["-timeout=10", "-rss_limit_mb=2048", f"-max_len={MOST_BYTES}"]
+        again = any(Path(argument).is_file() for argument in sys.argv[1:])
+        begin_with = [] if again else [folder]
+        atheris.Setup([sys.argv[0], *limits, *sys.argv[1:], *begin_with], one_input, custom_mutator=changed)
         atheris.Fuzz()
 
 
