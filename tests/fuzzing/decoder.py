@@ -3,10 +3,10 @@
     pip install atheris
     python tests/fuzzing/decoder.py -runs=1000000
 
-Options are LibFuzzer's; a file is run again, a folder keeps inputs that led to something new. Each input is what two clients of one server do, one thing after the other (``things_in``).
-Anything raised but a refusal ends the run with the input that did it, and so do an answer that no client could read,
-and a peer that is told something and had said nothing. LibFuzzer itself stops at a memory limit of 2 GB, or at an input
-that takes over ten seconds.
+Options are LibFuzzer's; a file is run again, a folder keeps inputs that led to something new. Each input is what two
+clients of one server do, one thing after the other (``things_in``). Anything raised but a refusal ends the run with the
+input that did it, and so do an answer that no client could read, and a peer that is told something and had said
+nothing. LibFuzzer itself stops at a memory limit of 2 GB, or at an input that takes over ten seconds.
 
 Bytes changed blindly are hardly ever messages, and msgspec's own code, which is C, guides nobody to them. So most
 changes are made to whole messages and their fields; some still are to bytes.
