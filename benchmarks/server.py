@@ -8,7 +8,8 @@ run: a bare ROUTER/DEALER echo of messages of the same sizes, and the lateness o
 Command-to-pose is measured twice: for commands sent at random moments, most of which is the wait for the next tick
 (on average half of 33.3 ms), and for commands aimed to arrive ``AIM`` before a tick, where that wait is small. In
 lock-step there is no such wait: a command and a step go out, a pose comes back, and the echo does the same with bare
-messages of their sizes; ``ratio`` is of the medians and of the 99th percentiles.
+messages of their sizes; ``ratio`` is of the medians and of the 99th percentiles. Both are taken at bare sockets; beside
+them what our client in Python takes until the step is over, with all that it checks and reads.
 Without a bundle it plays the tests' toy one, whose poses have the sizes of any on the common body.
 """
 
@@ -19,7 +20,8 @@ import platform
 import random
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import repeat
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -32,7 +34,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from footwork.motion.bundle import Bundle, read_bundle
 from footwork.protocol import messages as m
 from footwork.protocol.client import Client
-from footwork.protocol.codec import encode
+from footwork.protocol.codec import decode_from_server, encode
 from footwork.runtime.server import Server
 from support.processes import idle, in_process, lateness_shares
 from toy_bundle import toy_bundle
@@ -110,46 +112,75 @@ def message_sizes() -> dict[str, int]:
     return {name: len(encode(message)) for name, message in said.items()}
 
 
+def dealer(address: str) -> zmq.Socket:
+    """A bare DEALER socket."""
+    socket = zmq.Context.instance().socket(zmq.DEALER)
+    socket.connect(address)
+    return socket
+
+
+def round_trips(socket: zmq.Socket, said: Iterable[Sequence[bytes]], answers: int) -> dict[str, float]:
+    """Microseconds from sending some messages to the first of their answers."""
+    trips = []
+    for messages in said:
+        sent = time.perf_counter()
+        for message in messages:
+            socket.send(message)
+        socket.recv()
+        trips.append(1e6 * (time.perf_counter() - sent))
+        for _ in range(answers - 1):
+            socket.recv()
+    socket.close(linger=0)
+    return shares(trips[ECHOES // 10 :], 50, 99)
+
+
 def bare_echo(questions: Sequence[int], answers: Sequence[int]) -> dict[str, float]:
     """Microseconds from sending messages of so many bytes to the first answer, without anything of ours."""
     process, pipe = in_process(echo, questions[-1], answers)
-    socket = zmq.Context.instance().socket(zmq.DEALER)
-    socket.connect(pipe.recv())
-    said, trips = [bytes(size) for size in questions], []
-    for _ in range(ECHOES):
-        sent = time.perf_counter()
-        for question in said:
-            socket.send(question)
-        socket.recv()
-        trips.append(1e6 * (time.perf_counter() - sent))
-        for _ in answers[1:]:
-            socket.recv()
-    socket.close(linger=0)
+    said = [bytes(size) for size in questions]
+    trips = round_trips(dealer(pipe.recv()), repeat(said, ECHOES), len(answers))
     pipe.send("enough")
     process.join()
+    return trips
+
+
+def at_the_socket(address: str) -> dict[str, float]:
+    """Microseconds from a command and a step to the pose where the client takes no time: bytes ready, bytes unread."""
+    socket, rng, step = dealer(address), random.Random(1), encode(m.Step(ticks=1))
+    for message in (m.Hello(version=1), m.Spawn(sequence=1, character=0), m.Step(ticks=1)):
+        socket.send(encode(message))
+    while not isinstance(decode_from_server(socket.recv()), m.Stepped):
+        pass
+    whole = {"character": 0, "behaviour": "walk"}
+    commands = (m.Command(sequence=2 + turn, heading=rng.uniform(-3.0, 3.0), **whole) for turn in range(ECHOES))
+    return round_trips(socket, ((encode(command), step) for command in commands), 2)
+
+
+def of_our_client(address: str) -> dict[str, float]:
+    """Microseconds from a command to the end of the step that shows it, by the client in Python."""
+    rng, trips = random.Random(1), []
+    with Client(address, timeout=60.0) as client:
+        client.spawn(0)
+        for _ in range(ECHOES):
+            sent = time.perf_counter()
+            client.command(0, rng.uniform(-3.0, 3.0), "walk")
+            client.step()
+            trips.append(1e6 * (time.perf_counter() - sent))
     return shares(trips[ECHOES // 10 :], 50, 99)
 
 
 def in_lock_step(path: str) -> dict[str, Any]:
     """Microseconds from a command and a step to the pose, beside the echo of messages of the same sizes."""
-    process, pipe = in_process(serve, path, 30, True)
-    rng, trips = random.Random(1), []
-    with Client(pipe.recv(), timeout=60.0) as client:
-        client.spawn(0)
-        behaviour = client.welcome.behaviours[0]
-        for _ in range(ECHOES):
-            sent = time.perf_counter()
-            client.command(0, rng.uniform(-3.0, 3.0), behaviour)
-            client.step()
-            trips.append(1e6 * (time.perf_counter() - sent))
-    pipe.send("enough")
-    summary = pipe.recv()
-    process.join()
-    size = message_sizes()
+    figures, tick_us, size = {}, {}, message_sizes()
+    for name, measure in {"command_to_pose_us": at_the_socket, "by_our_client_us": of_our_client}.items():
+        process, pipe = in_process(serve, path, 30, True)
+        figures[name] = measure(pipe.recv())
+        pipe.send("enough")
+        tick_us[name] = pipe.recv()["tick_us"]
+        process.join()
     bare = bare_echo((size["command"], size["step"]), (size["pose"], size["stepped"]))
-    ours = shares(trips[ECHOES // 10 :], 50, 99)
-    ratio = {name: round(ours[name] / bare[name], 2) for name in ours}
-    return {"command_to_pose_us": ours, "bare_us": bare, "ratio": ratio, "tick_us": summary["tick_us"], "bytes": size}
+    ratio = {name: {share: round(ours[share] / bare[share], 2) for share in ours} for name, ours in figures.items()}
+    return figures | {"bare_us": bare, "ratio": ratio, "tick_us": tick_us, "bytes": size}
 
 
 def main() -> None:

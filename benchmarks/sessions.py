@@ -38,6 +38,9 @@ from toy_bundle import toy_bundle
 COMMAND_EVERY = 0.5
 STARVED = 1.0
 FIRST = 60.0  # seconds, after which memory shall not grow
+# libzmq's queue for a connection takes its memory slot by slot, the last after so many messages: with two commands a
+# second, after four minutes. In runs of more than a minute clients say as much within the first one.
+SLOTS, SETTLING = 512, 45.0
 POSE = b"\xa4type\xa4pose"  # after the head of its map
 
 
@@ -91,12 +94,16 @@ def play(address: str, sessions: int, seconds: float, pipe: Connection) -> None:
     rng, began = random.Random(0), time.monotonic()
     clients = [Session(address) for _ in range(sessions)]
     readable = Readable(clients)
-    beats = [(began + 2.0 + COMMAND_EVERY * number / sessions, number) for number in range(sessions)]
+    beats = [(began + COMMAND_EVERY * number / sessions, number) for number in range(sessions)]
     while (now := time.monotonic()) < began + seconds:
+        settling = seconds > FIRST and now < began + SETTLING
         while beats[0][0] <= now:
             due, number = heapq.heappop(beats)
-            heapq.heappush(beats, (due + COMMAND_EVERY, number))
-            clients[number].command(rng.uniform(-3.0, 3.0))
+            heapq.heappush(beats, (due + (SETTLING / SLOTS if settling else COMMAND_EVERY), number))
+            if settling:
+                clients[number].send(encode(m.Ping()))
+            else:
+                clients[number].command(rng.uniform(-3.0, 3.0))
         for client in readable.wait(max(0.0, beats[0][0] - now)):
             client.read(now)
     pipe.send(([(client.poses, client.longest, client.refused) for client in clients], time.process_time()))
