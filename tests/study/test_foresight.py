@@ -45,11 +45,12 @@ def test_without_foresight_it_does_what_the_table_says():
         node, yaw = int(one.target[0]), yaw + float(one.displacement[0, 2] + one.adjustment[0, 2])
 
 
-def test_what_is_not_known_yet_changes_nothing():
+@pytest.mark.parametrize(("seconds", "changed"), [(0.2, 20), (0.8, 38)])  # plans that last for 3 ticks, and for 4
+def test_what_is_not_known_yet_changes_nothing(seconds, changed):
     graph, (heading, behaviour) = graph_of_whole_turns(), player(1, 40)
     other = heading.copy()
-    other[20:] += 1.0
-    known = [Foresight(graph, table(graph, 4), 0.2).knowing(each, behaviour) for each in (heading, other)]
+    other[changed:] += 1.0
+    known = [Foresight(graph, table(graph, 4), seconds).knowing(each, behaviour) for each in (heading, other)]
     sums = [played_sum(TASK, one, 1.0, 30, heading[:14], behaviour[:14]) for one in known]
     assert sums[0] == sums[1]
 
