@@ -11,7 +11,7 @@ from footwork.motion.body import default_body
 from footwork.motion.clip import Clip
 from footwork.motion.graph import MotionGraph
 from footwork.motion.kinematics import forward
-from footwork.motion.moves import Moves, moves_along
+from footwork.motion.moves import Moves, moves_along, no_moves
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.turn_warp import turn_warp, turned
 from footwork.runtime.foot_lock import LOW, MOST_TURNED, STEP_TICKS, legs_of
@@ -276,3 +276,18 @@ def test_legs_are_those_that_hang_from_the_root():
         ("a", "b", "c"), np.array([-1, 0, 1], np.int32), np.ones((3, 3)), feet=np.array([[1, 2]], np.int32)
     )
     assert legs_of(chain).shape == (0, 4)
+
+
+def test_what_is_shown_of_a_character_is_the_same_bytes_however_many_there_are():
+    count = 37  # more than are worked on at a time, and no multiple of anything
+    alone, many = spawned(), World(GRAPH, count)
+    for _ in range(count):
+        many.spawn(PATH[0], 1.0, -2.0, 0.7)
+    for moves in along(PATH, np.random.default_rng(3)):
+        of_all = no_moves(count)
+        of_all.put(np.arange(count), moves)
+        alone.step(moves)
+        many.step(of_all)
+        for fraction in FRACTIONS:
+            for one, all_ in zip(alone.show(fraction), many.show(fraction), strict=True):
+                assert (all_ == one).all()

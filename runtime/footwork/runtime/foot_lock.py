@@ -72,7 +72,7 @@ def move_locks(anchors: NDArray, slips: NDArray, old: NDArray, new: tuple[float,
     slips[..., 0], slips[..., 1] = rotated(slips[..., 0], slips[..., 1], turn)
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _shown_turn(node, offset, joint, weights):
     """A joint's local rotation as shown at its node's own moment."""
     a, b = weights
@@ -80,7 +80,7 @@ def _shown_turn(node, offset, joint, weights):
     return multiply(exp(x, y, z), column4(node, 0, joint))
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _pelvis_at_tick(node, place, root_position, offset, root, weights):
     """Place and rotation of joint 0 in the world as shown at its node's own moment; arguments as ``_foot_at_tick``."""
     a, b = weights
@@ -90,7 +90,7 @@ def _pelvis_at_tick(node, place, root_position, offset, root, weights):
     return along(at, a, root[0], b, root[1]), multiply(exp(x, y, z), motion)
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _foot_at_tick(pelvis, leg, bones, node, offset, weights):
     """A foot as its motion with inertialisation has it at the node's own moment: its ball's height, and ``sole_of`` it.
 
@@ -110,7 +110,7 @@ def _foot_at_tick(pelvis, leg, bones, node, offset, weights):
     return ball[1], sole_of(at, ball)
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def sole_of(ankle, ball):
     """A foot over the ground: its ball's x and z, and sine and cosine of its yaw; 0 and 1 where it points nowhere."""
     x, z = ball[0] - ankle[0], ball[2] - ankle[2]
@@ -182,7 +182,7 @@ def update_locks(
         _take_step(locked[who], slip[who], stride[who])
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _die_away(slip, weights):
     """A tick of the spring for one foot's offset, in place."""
     a, b, c, d = weights
@@ -195,7 +195,7 @@ def _die_away(slip, weights):
         slip[:] = 0.0
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _leave(sole, anchor, slip):
     """What a foot's offset is, in place, if its lock ends here."""
     sine, cosine = between_yaws(anchor[2], anchor[3], sole[2], sole[3])
@@ -203,7 +203,7 @@ def _leave(sole, anchor, slip):
     slip[1] = 0.0
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _settle(sole, anchor, slip):
     """Anchor a foot where it is shown, in place."""
     sine, cosine = math.sin(slip[0, 2]), math.cos(slip[0, 2])
@@ -212,7 +212,7 @@ def _settle(sole, anchor, slip):
     slip[:] = 0.0
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _take_step(locked, slip, stride):
     """Let the locked foot that is furthest from its motion step, if it is too far, in place."""
     worst, furthest, stepping = -1, 1.0, False

@@ -21,8 +21,6 @@ from footwork.runtime.moving import glided
 from footwork.runtime.rotation_kernels import (
     along,
     before,
-    column3,
-    column4,
     exp,
     log,
     multiply,
@@ -32,6 +30,9 @@ from footwork.runtime.rotation_kernels import (
     spin,
     turned,
 )
+from footwork.runtime.tiles import TILE, load3, load4, store3, store4
+
+_OLD, _NEW, _OFFSET, _ROOM = 0, 7 * TILE, 14 * TILE, 20 * TILE  # of a tile of joints
 
 _NEGLIGIBLE = 1e-6
 _LARGE = 10.0
@@ -58,14 +59,14 @@ def ticks_to_settle(halflife: float) -> int:
     return ticks
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def _capped(v, limit):
     size = math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     scale = 1.0 if size <= limit else limit / size
     return v[0] * scale, v[1] * scale, v[2] * scale
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def _joint_offset(offset, velocity, old, old_spin, new, new_spin):
     """Offset and offset velocity of one joint over its new motion, such that the pose shown goes on smoothly.
 
@@ -117,7 +118,7 @@ def decay(
             _decay_row(offsets[who, k], offsets[who, k + VELOCITY], narrow)
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _decay_row(offset, velocity, weights):
     """The spring's step for a row of numbers and their velocities, in place."""
     a, b, c, d = weights
@@ -127,7 +128,7 @@ def _decay_row(offset, velocity, weights):
         velocity[place] = c * x + d * v
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _jump_root(root, position, velocity, place, cosine, sine, sign):
     """Add ``sign`` times the root's place and velocity in the world to its offset (2, 3)."""
     x, y, z = turned(cosine, sine, position)
@@ -141,22 +142,55 @@ def _jump_root(root, position, velocity, place, cosine, sine, sign):
 
 
 @numba.njit(cache=True, nogil=True)
-def _jump_joints(offsets, old, new, old_yaw, new_yaw):
-    """Offset rows (6, padded J) of one character over the new node's motion instead of the old one's, in place."""
-    for joint in range(offsets.shape[1]):
-        old_turn, old_spin = column4(old, 0, joint), column3(old, SPIN, joint)
-        new_spin = column3(new, SPIN, joint)
-        new_turn = before(new_spin, column4(new, 0, joint), TICK)
-        if joint == 0:
-            old_turn = planar(old_turn, math.cos(0.5 * old_yaw), math.sin(0.5 * old_yaw))
-            new_turn = planar(new_turn, math.cos(0.5 * new_yaw), math.sin(0.5 * new_yaw))
-            old_spin = turned(math.cos(old_yaw), math.sin(old_yaw), old_spin)
-            new_spin = turned(math.cos(new_yaw), math.sin(new_yaw), new_spin)
-        x, v = column3(offsets, 0, joint), column3(offsets, VELOCITY, joint)
-        x, v = _joint_offset(x, v, old_turn, old_spin, new_turn, new_spin)
-        for k in range(3):
-            offsets[k, joint] = x[k]
-            offsets[k + VELOCITY, joint] = v[k]
+def _jump_joints(offsets, old, new, old_yaw, new_yaw, room):
+    """Offset rows (6, padded J) of one character over the new node's motion instead of the old one's, in place.
+
+    ``room`` is a tile of _ROOM numbers to work in.
+    """
+    for first in range(0, offsets.shape[1], TILE):
+        count = min(TILE, offsets.shape[1] - first)
+        _load(old, first, count, room, _OLD)
+        _load(new, first, count, room, _NEW)
+        _load(offsets, first, count, room, _OFFSET)
+        if first == 0:
+            _from_planar(room, _OLD, old_yaw)
+            _from_planar(room, _NEW, new_yaw)
+        _jump_side_by_side(count, room)
+        for row in range(offsets.shape[0]):
+            for k in range(count):
+                offsets[row, first + k] = room[_OFFSET + row * TILE + k]
+
+
+@numba.njit(cache=True, nogil=True, forceinline=True)
+def _load(rows, first, count, room, at):
+    for row in range(rows.shape[0]):
+        for k in range(count):
+            room[at + row * TILE + k] = rows[row, first + k]
+
+
+@numba.njit(cache=True, nogil=True, forceinline=True)
+def _from_planar(room, at, yaw):
+    """Turn joint 0 and its angular velocity, of a tile's rows from ``at`` on, into the world, in place."""
+    spin_at = at + SPIN * TILE
+    store4(room, at, 0, planar(load4(room, at, 0), math.cos(0.5 * yaw), math.sin(0.5 * yaw)))
+    store3(room, spin_at, 0, turned(math.cos(yaw), math.sin(yaw), load3(room, spin_at, 0)))
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _jump_side_by_side(count, room):
+    """``_joint_offset`` of so many joints of a tile, in place."""
+    for k in range(min(count, TILE)):
+        new_spin = load3(room, _NEW + SPIN * TILE, k)
+        left, goes = _joint_offset(
+            load3(room, _OFFSET, k),
+            load3(room, _OFFSET + VELOCITY * TILE, k),
+            load4(room, _OLD, k),
+            load3(room, _OLD + SPIN * TILE, k),
+            before(new_spin, load4(room, _NEW, k), TICK),
+            new_spin,
+        )
+        store3(room, _OFFSET, k, left)
+        store3(room, _OFFSET + VELOCITY * TILE, k, goes)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -171,6 +205,7 @@ def jump(
     nodes: NDArray,
     offsets: NDArray,
     roots: NDArray,
+    room: NDArray,
 ) -> None:
     """Take a transition's jump into a character's offsets, in place.
 
@@ -197,7 +232,7 @@ def jump(
     root[0, 0] += TICK * x
     root[0, 1] += TICK * y
     root[0, 2] += TICK * z
-    _jump_joints(offsets[who], nodes[old_node], nodes[new_node], old_place[2], new_place[2])
+    _jump_joints(offsets[who], nodes[old_node], nodes[new_node], old_place[2], new_place[2], room)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -222,6 +257,7 @@ def take_jumps(
     ``old_node`` (n,) and ``old_place`` (n, 3) are theirs row for row. ``glide`` is what ``moving.make_moves`` gives
     (C, 3); ``ticks_left`` is set to ``settle_ticks`` for those that jump.
     """
+    room = np.empty(_ROOM)
     for row in range(slots.shape[0]):
         who = int(slots[row])
         if not natural[who]:
@@ -237,4 +273,5 @@ def take_jumps(
                 nodes,
                 offsets,
                 roots,
+                room,
             )

@@ -46,7 +46,7 @@ def conjugate(q):
     return -q[0], -q[1], -q[2], q[3]
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def bent_knee(hip, knee, ankle, thigh_turn, target, span, longest):
     """Rotations of the world to put before the thigh's and the shank's, so that the ankle comes to ``target``.
 
@@ -82,12 +82,12 @@ def bent_knee(hip, knee, ankle, thigh_turn, target, span, longest):
     return thigh, _between_frames(scaled(to_ankle, 1.0 / lower), normal, scaled(new_ankle, 1.0 / lower), new_normal)
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def _unit(v):
     return scaled(v, 1.0 / max(math.sqrt(dot(v, v)), _TINY))
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 def _between_frames(bone, normal, new_bone, new_normal):
     """The rotation that takes a unit bone to another, and the normal of its bending plane with it.
 

@@ -66,7 +66,7 @@ def make_moves(
         node[who] = target[who]
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _carry(place: NDArray, transform: NDArray) -> None:
     """Take a planar place (3,) through a planar transform (3,), in place; yaw is kept within -pi..pi."""
     yaw = place[2]
@@ -76,7 +76,7 @@ def _carry(place: NDArray, transform: NDArray) -> None:
     place[2] = wrapped_angle(yaw + transform[2])
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def glide_of(transform):
     """The even planar motion that makes up a transform (x, z, yaw) in one tick: the logarithm in the plane.
 
@@ -89,7 +89,7 @@ def glide_of(transform):
     return along * x - half * z, along * z + half * x, yaw
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def glided(place, glide, ticks):
     """A place (x, z, yaw) after so many ticks of an even planar motion; negative ones go back."""
     if ticks == 0.0 or (glide[0] == 0.0 and glide[1] == 0.0 and glide[2] == 0.0):

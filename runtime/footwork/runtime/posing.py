@@ -13,7 +13,7 @@ from footwork.runtime.moving import glided
 from footwork.runtime.rotation_kernels import along, before, column3, column4, exp, multiply, planar, turned
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _pose_root(place, position, velocity, back, root, a, b, shown):
     """The root's place in the world, written into ``shown`` (3,)."""
     x, y, z = position[0] - back * velocity[0], position[1] - back * velocity[1], position[2] - back * velocity[2]
@@ -23,7 +23,7 @@ def _pose_root(place, position, velocity, back, root, a, b, shown):
     shown[2] = place[1] + z + a * root[0, 2] + b * root[1, 2]
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _pose_first_joint(yaw, node, offset, back, a, b, shown):
     """Joint 0 in the world, written into ``shown`` (4,): the yaw stands between the offset and the node's rotation."""
     motion = before(column3(node, SPIN, 0), column4(node, 0, 0), back)
@@ -34,7 +34,7 @@ def _pose_first_joint(yaw, node, offset, back, a, b, shown):
         shown[k] = q[k]
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, forceinline=True)
 def _pose_joints(node, offset, back, a, b, rows):
     """All joints as if none were in the world, eight at once in float32: written into ``rows`` (4, padded J)."""
     for joint in range(rows.shape[1]):
