@@ -15,6 +15,7 @@ from footwork.controllers.orders import Orders
 from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.runtime import recording as r
+from footwork.runtime.characters import Motion
 from footwork.runtime.pose_frames import PoseFrames
 from footwork.runtime.recorder import Recorder, state_digest
 from footwork.runtime.schedule import NOTHING, require_within, rows_of, schedule_of
@@ -39,6 +40,7 @@ class Simulation:
         foot_lock: whether feet that stand stay where they are shown.
         controller: what chooses moves, on the bundle's graph or on one of its own; the bundle's own where not
             given (``bundle_controller``).
+        motion: ``World.motion`` of another simulation of the same bundle, to be shared; made anew where not given.
 
     Attributes:
         tick: the tick last made, from 0.
@@ -60,12 +62,13 @@ class Simulation:
         inertialise: bool = True,
         foot_lock: bool = True,
         controller: Controller | None = None,
+        motion: Motion | None = None,
     ) -> None:
         self._controller: Controller = controller or bundle_controller(bundle)
         graph = self._controller.graph
         self.bundle = bundle
         self.tick = 0
-        self.world = World(graph, capacity, inertialise=inertialise, foot_lock=foot_lock)
+        self.world = World(graph, capacity, inertialise=inertialise, foot_lock=foot_lock, motion=motion)
         self.behaviours = self._controller.present
         if not self.behaviours:
             raise InputError("no frame shows any behaviour, expected at least one", graph.where)
