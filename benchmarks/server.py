@@ -24,6 +24,7 @@ from collections.abc import Iterable, Sequence
 from itertools import repeat
 from multiprocessing.connection import Connection
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -58,7 +59,9 @@ def serve(path: str, rate: int, lockstep: bool, pipe: Connection) -> None:
     """Process: a server until the pipe says something; tells its address first and its figures last."""
     server = Server(load(path), bind="tcp://127.0.0.1:0", rate=rate, lockstep=lockstep)
     pipe.send(server.address)
-    server.run(until=pipe.poll)
+    # beside it: looking into the pipe at every frame would take its time
+    Thread(target=lambda: pipe.recv() and server.stop(), daemon=True).start()
+    server.run()
     pipe.send({**server.summary(), "lateness_us": lateness_shares(server.lateness_us)})
 
 
@@ -68,8 +71,8 @@ def echo(question: int, answers: Sequence[int], pipe: Connection) -> None:
     socket.bind("tcp://127.0.0.1:*")
     pipe.send(socket.get_string(zmq.LAST_ENDPOINT))
     parts = [bytes(size) for size in answers]
-    while not pipe.poll():
-        if socket.poll(10):
+    while (asked := socket.poll(10)) or not pipe.poll():
+        if asked:
             peer, said = socket.recv_multipart()
             for part in parts if len(said) == question else ():
                 socket.send_multipart([peer, part])

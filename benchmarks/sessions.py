@@ -18,6 +18,7 @@ import platform
 import random
 import sys
 import time
+from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -90,25 +91,30 @@ class Session(BareClient):
 
 
 def play(address: str, sessions: int, seconds: float, pipe: Connection) -> None:
-    """Process: the clients; tells what each got, and how much processor time they took in all."""
+    """Process: the clients; tells what each got, of those whose connection broke nothing, and their processor time."""
     rng, began = random.Random(0), time.monotonic()
     clients = [Session(address) for _ in range(sessions)]
-    readable = Readable(clients)
+    readable, lost = Readable(clients), set()
     beats = [(began + COMMAND_EVERY * number / sessions, number) for number in range(sessions)]
     while (now := time.monotonic()) < began + seconds:
         settling = seconds > FIRST and now < began + SETTLING
         while beats[0][0] <= now:
             due, number = heapq.heappop(beats)
             heapq.heappush(beats, (due + (SETTLING / SLOTS if settling else COMMAND_EVERY), number))
-            if settling:
-                clients[number].send(encode(m.Ping()))
-            else:
-                clients[number].command(rng.uniform(-3.0, 3.0))
+            client = clients[number]
+            with suppress(ConnectionError):  # the next read tells
+                client.send(encode(m.Ping())) if settling else client.command(rng.uniform(-3.0, 3.0))
         for client in readable.wait(max(0.0, beats[0][0] - now)):
-            client.read(now)
-    pipe.send(([(client.poses, client.longest, client.refused) for client in clients], time.process_time()))
+            try:
+                client.read(now)
+            except ConnectionError:
+                lost.add(client)
+                readable.forget(client)
+    got = [(0 if client in lost else client.poses, client.longest, client.refused) for client in clients]
+    pipe.send((got, time.process_time()))
     for client in clients:
-        client.send(encode(m.Bye()))
+        with suppress(ConnectionError):
+            client.send(encode(m.Bye()))
     pipe.recv()
 
 

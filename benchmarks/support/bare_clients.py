@@ -84,6 +84,10 @@ class Readable(Generic[_Client]):
         for descriptor in self._clients:
             self._poll.register(descriptor, select.EPOLLIN)
 
+    def forget(self, client: _Client) -> None:
+        """Tell of a client no more."""
+        self._poll.unregister(client.socket)
+
     def wait(self, seconds: float) -> Iterator[_Client]:
         """Those, after at most so long."""
         for descriptor, _ in self._poll.poll(seconds):
