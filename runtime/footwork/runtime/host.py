@@ -292,7 +292,7 @@ class Host:
         whose = [(session.peer, number, who) for session in sessions for number, who in session.characters.items()]
         rows = [(who.slot, number, who.acknowledged, lost.get((peer, number), 0)) for peer, number, who in whose]
         poses = scene.messages.of(rows, tick=scene.simulation.tick, frame=frame)
-        return ((peer, number, pose) for (peer, number, _), pose in zip(whose, poses, strict=True))
+        return zip([peer for peer, _, _ in whose], [number for _, number, _ in whose], poses, strict=True)
 
     def _send(self, session: Session, message: m.FromServer) -> None:
         self._outbox.append((session.peer, session.connection.send(message)))
