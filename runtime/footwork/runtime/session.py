@@ -128,7 +128,7 @@ class Session:
         self.count_anew()
         if not self._inbox:
             return ()
-        due = sorted(key for key in self._inbox if key <= tick)
+        due = sorted([key for key in self._inbox if key <= tick])
         return [message for key in due for message in self._inbox.pop(key)]
 
     def count_anew(self) -> None:

@@ -81,6 +81,7 @@ class Simulation:
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._actions = ShownActions(self.world, self.behaviours)
         self.shown = self._actions.frames
+        self._nothing_shown = self._no_poses(1, 0, 0)
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
@@ -158,7 +159,7 @@ class Simulation:
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
-        self.play(1, 0)
+        self._make(self._nothing_shown)
 
     def play(self, ticks: int, frames: int) -> NDArray[np.float32]:
         """Make ticks without a change of commands, and return the poses of all characters in them.
@@ -177,12 +178,15 @@ class Simulation:
         if self._recorder is not None and ticks > LONGEST_PLAY:
             raise InputError(f"{ticks} ticks, expected at most {LONGEST_PLAY} at once while recording", "play")
         poses = self._no_poses(ticks, frames, len(self.world.slots))
+        self._make(poses)
+        return poses
+
+    def _make(self, poses: NDArray[np.float32]) -> None:
         self._ticks.make(self.world.slots, NOTHING, poses)
-        self.tick += ticks
+        self.tick += len(poses)
         self._noted = False
         if self._recorder is not None and self.tick - self._recorder.state_tick >= r.STATE_TICKS:
             self._record_state(self._recorder)
-        return poses
 
     def snapshot(self, slots: Sequence[int]) -> bytes:
         """All that is remembered of some characters, as a blob that ``restore`` takes.
