@@ -17,7 +17,6 @@ from footwork.study.motion_matching.tuning import split
 from footwork.study.reproduction.workbench import Workbench
 from footwork.study.scoring import score
 from footwork.study.showing import Showing
-from footwork.training.bridges import bridged
 from footwork.training.dataset import Dataset, load_clips
 from footwork.training.graph_options import GraphOptions
 from footwork.training.player_model import learned
@@ -134,10 +133,7 @@ def bundle_of(bench: Workbench, motions: Dataset, setting: Setting) -> Bundle | 
 
 
 def graph_of(bench: Workbench, motions: Dataset, options: GraphOptions) -> MotionGraph | None:
-    """A motion graph, None where it cannot be walked without end; each is built once.
-
-    Bridges are added to the well-connected graph that there is already: all of it can be walked without end.
-    """
+    """A motion graph, None where it cannot be walked without end; each is built once."""
 
     def build() -> MotionGraph | None:
         clips = [*motions.clips, *map(mirrored, motions.clips)] if options.mirror else motions.clips
@@ -149,9 +145,6 @@ def graph_of(bench: Workbench, motions: Dataset, options: GraphOptions) -> Motio
                 raise
             return None
 
-    if options.graph == WELL_CONNECTED and options.bridges:
-        whole = graph_of(bench, motions, replace(options, bridges=0))
-        return whole and bridged(whole, options.bridges, SteeringTask().smoothness_sigma)
     return bench.once(("graph", id(motions), options), build)
 
 

@@ -48,7 +48,7 @@ THRESHOLDS, QUICK_THRESHOLDS = (0.2, 1.0, 5.0, 10.0), (1.0,)
 BRIDGES, BRIDGED_AT = 3, 1.0
 _OPTIONS = ("plain", "warped", "mirrored, warped", "warped, bridged", "mirrored, warped, bridged")
 FORESIGHTS = (0.25, 0.5, 1.0)
-KNOWN_SECONDS = 20.0
+KNOWN_SECONDS = 10.0
 CLAIMS = (
     f"The best character reaches a Total of {beyond.CONTROL:g}.",
     "Its Total is above that of the strong form of motion matching.",
