@@ -133,6 +133,7 @@ class PoseMessages:
         told = shown.facing, shown.behaviour, shown.clip, shown.source_frame, shown.transition
         keys = _keys()
         self._shown = keep((keys, *told, root, rotations, *fighters))
+        # every key at its whole width, so that none is copied beyond the end
         longest = keys.size + len(keys) * _LONGEST_NUMBER + root.shape[1] + rotations.shape[1]
         self._out = np.empty(capacity * longest, dtype=np.uint8)
         self._ends = np.empty(capacity, dtype=np.int64)
