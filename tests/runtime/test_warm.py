@@ -6,6 +6,7 @@ from footwork.motion import lookahead, moves
 from footwork.motion.kept import keep
 from footwork.runtime import (
     foot_lock,
+    foot_places,
     held_feet,
     inertialisation,
     leg_kernels,
@@ -13,6 +14,7 @@ from footwork.runtime import (
     posing,
     simulation,
     steered_ticks,
+    tick_feet,
     ticking,
 )
 from footwork.runtime.warm import warm_kernels
@@ -21,7 +23,8 @@ from toy_bundle import toy_bundle
 
 def kernels() -> dict[Dispatcher, list]:
     """What each kernel of a tick is compiled for, those that only other kernels call among them."""
-    of_world = (moving, foot_lock, held_feet, leg_kernels, inertialisation, posing, ticking)
+    feet = (foot_lock, foot_places, held_feet, leg_kernels, tick_feet)
+    of_world = (moving, *feet, inertialisation, posing, ticking)
     modules = (orders, steering, lookahead, moves, steered_ticks, *of_world)
     found = [value for module in modules for value in vars(module).values() if isinstance(value, Dispatcher)]
     # what is kept is handed over before any tick

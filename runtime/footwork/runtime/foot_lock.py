@@ -19,10 +19,10 @@ from footwork.motion.alignment import turn as rotated
 from footwork.motion.graph import MotionGraph
 from footwork.motion.skeleton import Skeleton
 from footwork.motion.tick import TICK
+from footwork.runtime.foot_places import between_yaws
 from footwork.runtime.inertialisation import decay_weights
-from footwork.runtime.leg_kernels import plus
-from footwork.runtime.motion_rows import VELOCITY
-from footwork.runtime.rotation_kernels import along, column3, column4, exp, multiply, planar, rotate, turned
+from footwork.runtime.tick_feet import FOOT, HEIGHT, ROOM, SOLE, feet_at_tick
+from footwork.runtime.tiles import TILE
 
 RELEASE_HALFLIFE = 0.05
 """Half-life of what a lock leaves when it ends, s: a twelfth is left after 0.15 s."""
@@ -33,7 +33,6 @@ STEP_TICKS = 5
 LOW = 0.04
 """A foot is locked once its ball is no higher than this above the floor, metres."""
 _FAR_TOO_FAR = 2.0  # times those limits: a foot that does not wait for the other's step
-_UPRIGHT = 1e-6  # metres from ankle to ball over the ground
 _SETTLED = 1e-6  # metres and radians: what is left is dropped
 
 
@@ -70,54 +69,6 @@ def move_locks(anchors: NDArray, slips: NDArray, old: NDArray, new: tuple[float,
     anchors[:, :2] = ahead + new[:2]
     anchors[:, 2:] = np.column_stack(rotated(anchors[:, 2], anchors[:, 3], turn))
     slips[..., 0], slips[..., 1] = rotated(slips[..., 0], slips[..., 1], turn)
-
-
-@numba.njit(cache=True, nogil=True, forceinline=True)
-def _shown_turn(node, offset, joint, weights):
-    """A joint's local rotation as shown at its node's own moment."""
-    a, b = weights
-    x, y, z = along((0.0, 0.0, 0.0), a, column3(offset, 0, joint), b, column3(offset, VELOCITY, joint))
-    return multiply(exp(x, y, z), column4(node, 0, joint))
-
-
-@numba.njit(cache=True, nogil=True, forceinline=True)
-def _pelvis_at_tick(node, place, root_position, offset, root, weights):
-    """Place and rotation of joint 0 in the world as shown at its node's own moment; arguments as ``_foot_at_tick``."""
-    a, b = weights
-    motion = planar(column4(node, 0, 0), math.cos(0.5 * place[2]), math.sin(0.5 * place[2]))
-    x, y, z = along((0.0, 0.0, 0.0), a, column3(offset, 0, 0), b, column3(offset, VELOCITY, 0))
-    at = plus(turned(math.cos(place[2]), math.sin(place[2]), root_position), (place[0], 0.0, place[1]))
-    return along(at, a, root[0], b, root[1]), multiply(exp(x, y, z), motion)
-
-
-@numba.njit(cache=True, nogil=True, forceinline=True)
-def _foot_at_tick(pelvis, leg, bones, node, offset, weights):
-    """A foot as its motion with inertialisation has it at the node's own moment: its ball's height, and ``sole_of`` it.
-
-    Args:
-        pelvis: place and rotation of joint 0 in the world.
-        leg: thigh, shank, foot and ball.  # (4,)
-        bones: rest offsets of the body.  # (J, 3)
-        node: ``motion_rows.node_rows`` of the node.  # (7, padded J)
-        offset: ``motion_rows.offset_rows`` of the character.  # (6, padded J)
-        weights: the first two of ``decay_weights`` over the tick.
-    """
-    at, turn = pelvis
-    for k in range(3):
-        at = plus(at, rotate(turn, bones[leg[k]]))
-        turn = multiply(turn, _shown_turn(node, offset, leg[k], weights))
-    ball = plus(at, rotate(turn, bones[leg[3]]))
-    return ball[1], sole_of(at, ball)
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def sole_of(ankle, ball):
-    """A foot over the ground: its ball's x and z, and sine and cosine of its yaw; 0 and 1 where it points nowhere."""
-    x, z = ball[0] - ankle[0], ball[2] - ankle[2]
-    length = math.sqrt(x * x + z * z)
-    if length < _UPRIGHT:
-        return ball[0], ball[2], 0.0, 1.0
-    return ball[0], ball[2], x / length, z / length
 
 
 @numba.njit(cache=True, nogil=True)
@@ -162,71 +113,84 @@ def update_locks(
         stride: how many ticks are left of each foot's step.  # (C, feet)
     """
     a, b, _, _ = decay_weights(TICK, halflife)
+    room, feet = np.empty(ROOM), np.empty((legs.shape[0], FOOT))
+    for first in range(0, slots.shape[0], TILE):
+        some = slots[first : first + TILE]
+        feet_at_tick(some, node, place, (a, b), root_position, nodes, offsets, roots, legs, bones, room, feet)
+        _update(some, node, target, contacts, floor, feet, locked, anchor, slip, stride)
+
+
+@numba.njit(cache=True, nogil=True)
+def _update(slots, node, target, contacts, floor, feet, locked, anchor, slip, stride):
+    """``update_locks`` of up to TILE characters whose feet are where ``feet_at_tick`` has them."""
     dying = decay_weights(TICK, RELEASE_HALFLIFE)
-    for who in slots:
-        here = node[who]
-        pelvis = _pelvis_at_tick(nodes[here], place[who], root_position[here], offsets[who], roots[who], (a, b))
-        for foot in range(legs.shape[0]):
+    # nothing is cut out of an array: each cut counts references, which takes longer than what is done with it
+    for k in range(slots.shape[0]):
+        who = slots[k]
+        for foot in range(feet.shape[0]):
             if not locked[who, foot]:
-                _die_away(slip[who, foot], dying)
+                _die_away(slip, who, foot, dying)
             stride[who, foot] = max(stride[who, foot] - 1, 0)
-            stays = contacts[here, foot] and contacts[target[who], foot]
-            if locked[who, foot] or (stays and stride[who, foot] == 0):
-                height, sole = _foot_at_tick(pelvis, legs[foot], bones, nodes[here], offsets[who], (a, b))
-                if locked[who, foot]:
-                    _leave(sole, anchor[who, foot], slip[who, foot])
-                    locked[who, foot] = stays
-                elif height <= floor + LOW:
-                    _settle(sole, anchor[who, foot], slip[who, foot])
-                    locked[who, foot] = True
-        _take_step(locked[who], slip[who], stride[who])
+            stays = contacts[node[who], foot] and contacts[target[who], foot]
+            x, z = feet[foot, SOLE + k], feet[foot, SOLE + TILE + k]
+            sole = x, z, feet[foot, SOLE + 2 * TILE + k], feet[foot, SOLE + 3 * TILE + k]
+            if locked[who, foot]:
+                _leave(sole, anchor, slip, who, foot)
+                locked[who, foot] = stays
+            elif stays and stride[who, foot] == 0 and feet[foot, HEIGHT + k] <= floor + LOW:
+                _settle(sole, anchor, slip, who, foot)
+                locked[who, foot] = True
+        _take_step(locked, slip, stride, who)
 
 
 @numba.njit(cache=True, nogil=True, forceinline=True)
-def _die_away(slip, weights):
+def _die_away(slip, who, foot, weights):
     """A tick of the spring for one foot's offset, in place."""
     a, b, c, d = weights
     largest = 0.0
     for k in range(3):
-        x, v = slip[0, k], slip[1, k]
-        slip[0, k], slip[1, k] = a * x + b * v, c * x + d * v
-        largest = max(largest, abs(slip[0, k]), abs(slip[1, k]) * RELEASE_HALFLIFE)
+        x, v = slip[who, foot, 0, k], slip[who, foot, 1, k]
+        x, v = a * x + b * v, c * x + d * v
+        slip[who, foot, 0, k], slip[who, foot, 1, k] = x, v
+        largest = max(largest, abs(x), abs(v) * RELEASE_HALFLIFE)
     if largest < _SETTLED:
-        slip[:] = 0.0
+        _put_slip(slip, who, foot, 0.0, 0.0, 0.0)
 
 
 @numba.njit(cache=True, nogil=True, forceinline=True)
-def _leave(sole, anchor, slip):
+def _put_slip(slip, who, foot, x, z, yaw):
+    """An offset that does not change."""
+    slip[who, foot, 0, 0], slip[who, foot, 0, 1], slip[who, foot, 0, 2] = x, z, yaw
+    slip[who, foot, 1, 0] = slip[who, foot, 1, 1] = slip[who, foot, 1, 2] = 0.0
+
+
+@numba.njit(cache=True, nogil=True, forceinline=True)
+def _leave(sole, anchor, slip, who, foot):
     """What a foot's offset is, in place, if its lock ends here."""
-    sine, cosine = between_yaws(anchor[2], anchor[3], sole[2], sole[3])
-    slip[0, 0], slip[0, 1], slip[0, 2] = anchor[0] - sole[0], anchor[1] - sole[1], math.atan2(sine, cosine)
-    slip[1] = 0.0
+    sine, cosine = between_yaws(anchor[who, foot, 2], anchor[who, foot, 3], sole[2], sole[3])
+    x, z = anchor[who, foot, 0] - sole[0], anchor[who, foot, 1] - sole[1]
+    _put_slip(slip, who, foot, x, z, math.atan2(sine, cosine))
 
 
 @numba.njit(cache=True, nogil=True, forceinline=True)
-def _settle(sole, anchor, slip):
+def _settle(sole, anchor, slip, who, foot):
     """Anchor a foot where it is shown, in place."""
-    sine, cosine = math.sin(slip[0, 2]), math.cos(slip[0, 2])
-    anchor[0], anchor[1] = sole[0] + slip[0, 0], sole[1] + slip[0, 1]
-    anchor[2], anchor[3] = sole[2] * cosine + sole[3] * sine, sole[3] * cosine - sole[2] * sine
-    slip[:] = 0.0
+    x, z, yaw = slip[who, foot, 0, 0], slip[who, foot, 0, 1], slip[who, foot, 0, 2]
+    sine, cosine = math.sin(yaw), math.cos(yaw)
+    anchor[who, foot, 0], anchor[who, foot, 1] = sole[0] + x, sole[1] + z
+    anchor[who, foot, 2], anchor[who, foot, 3] = sole[2] * cosine + sole[3] * sine, sole[3] * cosine - sole[2] * sine
+    _put_slip(slip, who, foot, 0.0, 0.0, 0.0)
 
 
 @numba.njit(cache=True, nogil=True, forceinline=True)
-def _take_step(locked, slip, stride):
+def _take_step(locked, slip, stride, who):
     """Let the locked foot that is furthest from its motion step, if it is too far, in place."""
     worst, furthest, stepping = -1, 1.0, False
-    for foot in range(locked.shape[0]):
-        stepping |= stride[foot] > 0
-        away = math.sqrt(slip[foot, 0, 0] ** 2 + slip[foot, 0, 1] ** 2) / FURTHEST
-        error = max(away, abs(slip[foot, 0, 2]) / MOST_TURNED)
-        if locked[foot] and error > furthest:
+    for foot in range(locked.shape[1]):
+        stepping |= stride[who, foot] > 0
+        away = math.sqrt(slip[who, foot, 0, 0] ** 2 + slip[who, foot, 0, 1] ** 2) / FURTHEST
+        error = max(away, abs(slip[who, foot, 0, 2]) / MOST_TURNED)
+        if locked[who, foot] and error > furthest:
             worst, furthest = foot, error
     if worst >= 0 and (not stepping or furthest > _FAR_TOO_FAR):
-        locked[worst], stride[worst] = False, STEP_TICKS
-
-
-@numba.njit(cache=True, nogil=True)
-def between_yaws(sine, cosine, from_sine, from_cosine):
-    """Sine and cosine of one yaw less another."""
-    return sine * from_cosine - cosine * from_sine, cosine * from_cosine + sine * from_sine
+        locked[who, worst], stride[who, worst] = False, STEP_TICKS

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.motion.tick import TICK
-from footwork.runtime.foot_lock import RELEASE_HALFLIFE, STEP_TICKS, between_yaws, sole_of
+from footwork.runtime.foot_lock import RELEASE_HALFLIFE, STEP_TICKS
+from footwork.runtime.foot_places import between_yaws, sole_of
 from footwork.runtime.inertialisation import decay_weights
 from footwork.runtime.leg_kernels import bent_knee, conjugate, dot, less, plus
 from footwork.runtime.rotation_kernels import multiply, planar, rotate, turned
