@@ -100,8 +100,8 @@ class Frames:
 
 def summary(nanoseconds: list[int]) -> dict[str, float]:
     """Milliseconds a frame."""
-    middle, high, most = np.percentile(nanoseconds, [50, 99, 100]) / 1e6
-    return {"median": round(middle, 4), "p99": round(high, 4), "max": round(most, 4)}
+    least, middle, high, most = np.percentile(nanoseconds, [0, 50, 99, 100]) / 1e6
+    return {"min": round(least, 4), "median": round(middle, 4), "p99": round(high, 4), "max": round(most, 4)}
 
 
 def measured(bundle: Bundle, count: int, groups: int, frames: int) -> dict[str, Any]:

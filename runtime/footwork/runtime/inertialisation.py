@@ -145,7 +145,7 @@ def _jump_root(root, position, velocity, place, cosine, sine, sign):
 def _jump_joints(offsets, old, new, old_yaw, new_yaw, room):
     """Offset rows (6, padded J) of one character over the new node's motion instead of the old one's, in place.
 
-    ``room`` is a tile of _ROOM numbers to work in.
+    ``room`` is a tile of _ROOM numbers to work in: joints are worked on side by side.
     """
     for first in range(0, offsets.shape[1], TILE):
         count = min(TILE, offsets.shape[1] - first)
@@ -222,6 +222,7 @@ def jump(
         nodes: ``motion_rows.node_rows`` of the graph.  # (N, 7, padded J)
         offsets: ``motion_rows.offset_rows`` of the joints at the end of the last tick, rad and rad/s.
         roots: offset (m) and its velocity (m/s) of the root.  # (C, 2, 3)
+        room: a tile to work in.  # (_ROOM,)
     """
     cosine, sine = math.cos(old_place[2]), math.sin(old_place[2])
     root = roots[who]
