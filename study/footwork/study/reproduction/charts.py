@@ -12,6 +12,7 @@ from footwork.study.drawing import pyplot
 from footwork.study.plot_style import FIGURE, MARKER
 
 STANDARD, WELL = "standard", "well"
+_LEGEND_MARK, _LEGEND_LETTER = 0.6, 0.065  # inches that a line of the legend and a letter beside it take, about
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,8 @@ def line_charts(panels: Sequence[tuple[str, Sequence[Series], Axis, Axis]], heig
             _draw_series(axes, one)
         _dress(axes, title, x, y)
     handles = {line.get_label(): line for axes in grid[0] for line in axes.get_lines()}
-    columns = min(len(handles), 4)
+    widest = _LEGEND_MARK + _LEGEND_LETTER * max(len(str(name)) for name in handles)
+    columns = min(len(handles), 4, max(1, int(FIGURE[0] / widest)))
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.22 * (1 + (len(handles) - 1) // columns) / height))
     plot_style.add_legend(figure, list(handles.values()), list(handles), loc="upper center", ncols=columns)
     return plot_style.inline_svg(figure)
