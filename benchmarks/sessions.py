@@ -95,12 +95,14 @@ def play(address: str, sessions: int, seconds: float, pipe: Connection) -> None:
     rng, began = random.Random(0), time.monotonic()
     clients = [Session(address) for _ in range(sessions)]
     readable, lost = Readable(clients), set()
+    settled = began + SETTLING if seconds > FIRST else began
     beats = [(began + COMMAND_EVERY * number / sessions, number) for number in range(sessions)]
     while (now := time.monotonic()) < began + seconds:
-        settling = seconds > FIRST and now < began + SETTLING
         while beats[0][0] <= now:
-            due, number = heapq.heappop(beats)
-            heapq.heappush(beats, (due + (SETTLING / SLOTS if settling else COMMAND_EVERY), number))
+            due, number = beats[0]
+            settling, own = due + SETTLING / SLOTS < settled, settled + COMMAND_EVERY * number / sessions
+            after = due + SETTLING / SLOTS if settling else own if due < own else due + COMMAND_EVERY
+            heapq.heapreplace(beats, (after, number))
             client = clients[number]
             with suppress(ConnectionError):  # the next read tells
                 client.send(encode(m.Ping())) if settling else client.command(rng.uniform(-3.0, 3.0))
