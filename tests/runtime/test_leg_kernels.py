@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from footwork.motion import quaternion
@@ -29,6 +29,8 @@ def random_pose(seed: int, spread: float = 0.5):
 def test_the_kernel_bends_legs_as_the_array_form_does(seed, away, side):
     (places, turns), random = random_pose(seed)
     limb = leg(BODY, side)
+    # where a leg is all but straight, rounding decides which way its knee points
+    assume(np.linalg.norm(places[limb.tip] - places[limb.upper]) < 0.999 * sum(SPAN))
     target = places[limb.tip] + away * random.normal(0.0, 1.0, 3)
     upper, lower = reach(places, turns, limb, target)
     before_upper, before_lower = bent(places, turns, limb, target, sum(SPAN))

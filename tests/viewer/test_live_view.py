@@ -132,6 +132,19 @@ def state(page: Any) -> SimpleNamespace:
     return SimpleNamespace(**page.evaluate(told))
 
 
+def settled(page: Any) -> SimpleNamespace:
+    """The state once two pictures in a row show the same tick: keys take effect on the next picture."""
+    last = state(page)
+    end = time.monotonic() + SECONDS
+    while True:
+        time.sleep(0.3)
+        now = state(page)
+        if now.shown == last.shown:
+            return now
+        assert time.monotonic() < end, f"it goes on: {now}"
+        last = now
+
+
 def test_the_character_walks_turns_and_stops_as_keys_are_held(page):
     page.keyboard.down("w")
     wait_until(page, "footwork.figure.place.z > 1")
@@ -170,9 +183,11 @@ def latency_of_keys(page: Any) -> float:
 
 def test_it_can_be_paused_and_stepped_while_the_world_goes_on(page):
     page.keyboard.press("p")
-    page.keyboard.press("Comma")
     wait_until(page, "!footwork.session.history.live")
-    paused = state(page)
+    stopped = settled(page)
+    page.keyboard.press("Comma")
+    wait_until(page, f"footwork.figure.shown.tick < {stopped.shown}")
+    paused = settled(page)
     time.sleep(0.3)
     later = state(page)
     assert later.shown == paused.shown
