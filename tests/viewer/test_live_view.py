@@ -185,7 +185,8 @@ def test_it_can_be_paused_and_stepped_while_the_world_goes_on(page):
     page.keyboard.press("p")
     wait_until(page, "!footwork.session.history.live")
     stopped = settled(page)
-    page.keyboard.press("Comma")
+    for _ in range(2):  # of two frames back at least one is another tick's
+        page.keyboard.press("Comma")
     wait_until(page, f"footwork.figure.shown.tick < {stopped.shown}")
     paused = settled(page)
     time.sleep(0.3)
