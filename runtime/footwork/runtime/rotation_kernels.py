@@ -13,9 +13,8 @@ import numpy as np
 # widen the arithmetic. A call of sin or cos would keep the compiler from working on several joints at once.
 _C1, _C2, _C3, _C4, _C5, _C6 = (np.float32((-1.0) ** n / math.factorial(2 * n)) for n in range(1, 7))
 _S1, _S2, _S3, _S4, _S5, _S6 = (np.float32((-1.0) ** n / math.factorial(2 * n + 1)) for n in range(1, 7))
-_A0, _A1, _A2, _A3, _A4, _A5, _A6, _A7, _A8, _A9 = (
-    (-1.0) ** n / (2 * n + 1) for n in range(10)
-)  # arctan(u) / u in u^2
+# arctan(u) / u in u^2
+_A1, _A2, _A3, _A4, _A5, _A6, _A7, _A8, _A9 = ((-1.0) ** n / (2 * n + 1) for n in range(1, 10))
 _ONE, _TWO, _HALF, _SIXTEENTH = np.float32(1.0), np.float32(2.0), np.float32(0.5), np.float32(0.0625)
 
 

@@ -8,7 +8,7 @@ Results do not depend on the number of threads.
 import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -130,14 +130,14 @@ def _checked_actions(graph: MotionGraph, task: SteeringTask) -> Actions:
         problem = f"behaviours {', '.join(task.behaviours)}, the graph has {', '.join(graph.behaviours)}"
         raise InputError(problem, "task")
     graph.require_no_dead_ends()
-    warp = turn_warp(graph) if task.warp > 0.0 else None
+    actions = actions_of(graph, task, turn_warp(graph) if task.warp > 0.0 else None)
     # the price of transitions alone is nothing that a character could be asked for
-    if not _reward_varies(actions_of(graph, replace(task, transition_price=0.0), warp), len(task.behaviours)):
+    if not _reward_varies(actions._replace(smoothness=graph.smoothness), len(task.behaviours)):
         shown = [name for index, name in enumerate(graph.behaviours) if (graph.behaviour == index).any()]
         problem = "the reward is the same whatever is done, expected a graph of several behaviours or a headed one; it "
         problem += f"shows {', '.join(shown) or 'none'} of {', '.join(graph.behaviours)}"
         raise InputError(problem, "task")
-    return actions_of(graph, task, warp)
+    return actions
 
 
 def _reward_varies(actions: Actions, behaviours: int) -> bool:

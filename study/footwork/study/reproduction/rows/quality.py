@@ -14,12 +14,16 @@ from footwork.study.reproduction.motion_sets import SETS
 from footwork.study.reproduction.playing import jerkiness, played_clip, slide_inside
 from footwork.study.reproduction.reduced import well_connected_motion_graph
 from footwork.study.reproduction.row import OURS, Cause, Column, Judgement, Result, Row, Table, judged
-from footwork.study.reproduction.slides import slide_judgement, slide_judgements, slides_of_interpolation
+from footwork.study.reproduction.slides import (
+    NEAR_SOURCE,
+    slide_judgement,
+    slide_judgements,
+    slides_of_interpolation,
+)
 from footwork.study.reproduction.workbench import BUILT_AT, LARGE, MG, WCMG, Workbench
 
 THRESHOLDS = {MG: 1.0, WCMG: BUILT_AT}
 STOPS = 24  # captured frames that a path comes through, drawn at random
-NEAR_SOURCE = 1.25
 CALM = 0.95  # quantile of jerkiness over the frames of a path
 
 
@@ -110,8 +114,8 @@ def _jerk(numbers: dict[str, dict[str, Any]]) -> Judgement:
     pairs = {name: (one["jerk_mm"], one["jerk_of_source_mm"]) for name, one in _well(numbers)}
     reason = ", ".join(f"{name} {ours:.1f} against {source:.1f} mm" for name, (ours, source) in pairs.items())
     holds = all(ours <= NEAR_SOURCE * source for ours, source in pairs.values())
-    smooth = ", ".join(f"{one['jerk_shown_mm']:.1f}" for _, one in _well(numbers))
-    return judged(claim, holds, f"{reason}; {smooth} mm as shown.", Cause.CLAIM)
+    shown = ", ".join(f"{one['jerk_shown_mm']:.1f}" for _, one in _well(numbers))
+    return judged(claim, holds, f"{reason}; {shown} mm as shown.", Cause.CLAIM)
 
 
 def _well(numbers: dict[str, dict[str, Any]]) -> list[tuple[str, dict[str, Any]]]:
