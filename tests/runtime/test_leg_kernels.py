@@ -18,6 +18,12 @@ def bent(places, turns, limb, target, longest):
     return bent_knee(hip, knee, ankle, tuple(turns[limb.upper]), tuple(target), SPAN, longest)
 
 
+def ankle_of(places, limb, upper, lower):
+    """Where rotations put before the thigh's and the shank's take the ankle, from the hip."""
+    knee = quaternion.rotate(upper, places[limb.lower] - places[limb.upper])
+    return knee + quaternion.rotate(lower, places[limb.tip] - places[limb.lower])
+
+
 def random_pose(seed: int, spread: float = 0.5):
     random = np.random.default_rng(seed)
     rotations = quaternion.from_rotation_vector(random.normal(0.0, spread, (BODY.joint_count, 3)))
@@ -29,11 +35,15 @@ def random_pose(seed: int, spread: float = 0.5):
 def test_the_kernel_bends_legs_as_the_array_form_does(seed, away, side):
     (places, turns), random = random_pose(seed)
     limb = leg(BODY, side)
-    # where a leg is all but straight, rounding decides which way its knee points
-    assume(np.linalg.norm(places[limb.tip] - places[limb.upper]) < 0.999 * sum(SPAN))
     target = places[limb.tip] + away * random.normal(0.0, 1.0, 3)
     upper, lower = reach(places, turns, limb, target)
     before_upper, before_lower = bent(places, turns, limb, target, sum(SPAN))
+    came_to = ankle_of(places, limb, before_upper, before_lower)
+    way = target - places[limb.upper]
+    distance = np.linalg.norm(way)
+    np.testing.assert_allclose(came_to, way * min(1.0, sum(SPAN) / distance), atol=1e-9)
+    # where a leg is all but straight, rounding decides which way its knee points
+    assume(np.linalg.norm(places[limb.tip] - places[limb.upper]) < 0.999 * sum(SPAN))
     for found, own, expected in ((before_upper, limb.upper, upper), (before_lower, limb.lower, lower)):
         turned = quaternion.multiply(found, turns[own])
         assert abs(turned @ expected) == pytest.approx(1.0, abs=1e-9)
@@ -55,6 +65,4 @@ def test_what_is_too_far_is_approached_along_its_own_direction(seed, longest):
     limb = leg(BODY, "right")
     way = quaternion.normalise(random.normal(0.0, 1.0, 3))
     upper, lower = bent(places, turns, limb, places[limb.upper] + 2.0 * way, longest)
-    knee = quaternion.rotate(upper, places[limb.lower] - places[limb.upper])
-    ankle = knee + quaternion.rotate(lower, places[limb.tip] - places[limb.lower])
-    np.testing.assert_allclose(ankle, longest * way, atol=1e-9)
+    np.testing.assert_allclose(ankle_of(places, limb, upper, lower), longest * way, atol=1e-9)
