@@ -120,6 +120,16 @@ def test_the_world_lives_on_the_graph_of_its_controller():
     assert simulation.show(1.0).behaviour[slot] >= 0
 
 
+def test_who_comes_after_the_others_were_shown_is_shown_as_what_it_does():
+    simulation = Simulation(BUNDLE, 2)
+    simulation.spawn(0.0, 0.0, 0.0, "stop")
+    simulation.show(1.0)
+    late = simulation.spawn(0.0, 0.0, 0.0, "walk")
+    told = simulation.show(1.0)
+    assert simulation.behaviours[told.behaviour[late]] == "walk"
+    assert told.source_frame[late] == BUNDLE.graph.nearest_source[1][simulation.world.node[late]]
+
+
 def test_feet_are_held_unless_told_otherwise():
     assert Simulation(BUNDLE, 1).world.smoothing.foot_lock
     assert not Simulation(BUNDLE, 1, foot_lock=False).world.smoothing.foot_lock

@@ -12,12 +12,12 @@ from footwork.runtime import (
     leg_kernels,
     moving,
     posing,
+    shown_actions,
     simulation,
     steered_ticks,
     tick_feet,
     ticking,
 )
-from footwork.runtime.warm import warm_kernels
 from toy_bundle import toy_bundle
 
 
@@ -25,7 +25,7 @@ def kernels() -> dict[Dispatcher, list]:
     """What each kernel of a tick is compiled for, those that only other kernels call among them."""
     feet = (foot_lock, foot_places, held_feet, leg_kernels, tick_feet)
     of_world = (moving, *feet, inertialisation, posing, ticking)
-    modules = (orders, steering, lookahead, moves, steered_ticks, *of_world)
+    modules = (orders, steering, lookahead, moves, steered_ticks, shown_actions, *of_world)
     found = [value for module in modules for value in vars(module).values() if isinstance(value, Dispatcher)]
     # what is kept is handed over before any tick
     return {kernel: list(kernel.signatures) for kernel in found if kernel is not keep}
@@ -33,11 +33,11 @@ def kernels() -> dict[Dispatcher, list]:
 
 def test_a_tick_after_warming_compiles_nothing():
     bundle = toy_bundle()
-    warm_kernels(steering.SteeringController(bundle.graph, bundle.tables["steering"]))
+    characters = simulation.Simulation(bundle, 3)
     before = kernels()
     assert before[steered_ticks.make_ticks]
+    assert before[steered_ticks.make_tick]
     assert before[ticking.show_kept]
-    characters = simulation.Simulation(bundle, 3)
     for slot in range(3):
         characters.spawn(float(slot), 0.0, 0.0)
         characters.give(slot, characters.vocabulary.of_keys(np.float64(1.0), 1, 0, False, "jump"))

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.command import NONE, Command
-from footwork.motion.kept import Kept, keep
 from footwork.motion.requests import ANY_SPEED
 
 LATCH_TICKS = 30
@@ -57,9 +56,8 @@ def put_in_force(
         in_force.ticks_left[slot], in_force.entered[slot] = LATCH_TICKS, False
 
 
-@numba.njit(cache=True, nogil=True)
-def _put_in_kept(slot: int, heading: float, behaviour: int, one_shot: int, speed: float, shown: int, kept: Kept):
-    put_in_force(slot, heading, behaviour, one_shot, speed, shown, kept.parts)
+# A handful of numbers: to Python they take less by themselves than the way into compiled code.
+_put_one = getattr(put_in_force, "py_func", put_in_force)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -114,7 +112,6 @@ class Orders:
             speed=np.full(capacity, ANY_SPEED),
             asked_speed=np.full(capacity, ANY_SPEED),
         )
-        self._kept = keep(self.in_force)
         self.heading, self.asked = self.in_force.heading, self.in_force.asked
         self._slots = np.arange(capacity)
 
@@ -140,7 +137,7 @@ class Orders:
             shown: index of the behaviour that the character shows now, -1 for none.
         """
         heading, speed = float(command.heading), command.asked_speed
-        _put_in_kept(slot, heading, command.behaviour, command.one_shot, speed, shown, self._kept)
+        _put_one(slot, heading, command.behaviour, command.one_shot, speed, shown, self.in_force)
 
     def at_tick(self, shown: NDArray) -> NDArray[np.int32]:
         """The behaviour to ask for at this tick, once a tick before edges are chosen.

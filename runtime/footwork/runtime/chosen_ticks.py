@@ -24,7 +24,8 @@ class ChosenTicks(SingleTicks):
         self._controller = controller
         self._moves, self._chosen = no_moves(world.capacity), no_moves(world.capacity)
 
-    def _step(self, slots: NDArray[np.intp]) -> None:
+    def step(self, slots: NDArray[np.intp]) -> None:
+        """Take the characters of some slots, in rising order, through a tick."""
         world, orders = self._world, self._orders
         node = world.node[slots]
         ask(slots, world.graph.behaviour[node], orders.in_force)

@@ -55,10 +55,21 @@ class Exchange:
         """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
         self.beat()
         while now_ns() < end and (parts := self._router.receive()) is not None:
-            if len(parts) == 2:
-                self._host.receive(parts[0], parts[1], now_ns())
-            else:
-                self._host.refuse(parts[0], PeerError(MALFORMED, "more or fewer parts than the one expected"))
+            self._take(parts)
+
+    def wait(self, most: int) -> None:
+        """Take messages once there is one, for so many nanoseconds at most; nobody is told anything until then."""
+        self.beat()
+        parts = self._router.next(self.patience)
+        if parts is not None:
+            self._take(parts)
+            self.take(now_ns() + most)
+
+    def _take(self, parts: list[bytes]) -> None:
+        if len(parts) == 2:
+            self._host.receive(parts[0], parts[1], now_ns())
+        else:
+            self._host.refuse(parts[0], PeerError(MALFORMED, "more or fewer parts than the one expected"))
 
     def beat(self) -> None:
         """Note that somebody listens; after a stall no client is held to what it did, or did not do, meanwhile."""

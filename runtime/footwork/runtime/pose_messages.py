@@ -82,19 +82,18 @@ def _key(out, at, keys, k):
 
 
 @numba.njit(cache=True, nogil=True)
-def write_poses(rows: NDArray, tick: int, frame: int, shown: Kept, out: NDArray, ends: NDArray) -> None:
+def write_poses(rows: NDArray, tick: int, frame: int, kept: Kept) -> None:
     """Write the pose messages of some characters one after the other.
 
     Args:
         rows: a ``Row`` each.  # (n, 4) int64
         tick: that they show.
         frame: which of the tick's frames.
-        shown: the keys of the message and its field ``type``, and the fields of PoseFrames, those of fighters without
-            a row where nobody fights, root and rotations as bytes.
-        out: written.  # uint8, with room for all
-        ends: written, where each message ends.  # (n,) int64
+        kept: the keys of the message and its field ``type``; the fields of PoseFrames, those of fighters without a row
+            where nobody fights, root and rotations as bytes; and what is written: the messages, uint8 with room for
+            all, and where each ends, int64.
     """
-    keys, facing, behaviour, clip, source_frame, transition, root, rotations, health, stamina = shown.parts
+    keys, facing, behaviour, clip, source_frame, transition, root, rotations, health, stamina, out, ends = kept.parts
     fights, room, at = health.shape[0] > 0, np.empty(1), 0
     for n in range(rows.shape[0]):
         slot, number, acknowledged, lost = rows[n]
@@ -132,18 +131,18 @@ class PoseMessages:
         fighters = tuple(nobody if array is None else array for array in (shown.health, shown.stamina))
         told = shown.facing, shown.behaviour, shown.clip, shown.source_frame, shown.transition
         keys = _keys()
-        self._shown = keep((keys, *told, root, rotations, *fighters))
         # every key at its whole width, so that none is copied beyond the end
         longest = keys.size + len(keys) * _LONGEST_NUMBER + root.shape[1] + rotations.shape[1]
         self._out = np.empty(capacity * longest, dtype=np.uint8)
         self._ends = np.empty(capacity, dtype=np.int64)
+        self._kept = keep((keys, *told, root, rotations, *fighters, self._out, self._ends))
         self.of((), tick=0, frame=1)  # compiles it, or loads it from the cache
 
     def of(self, rows: Sequence[Row], *, tick: int, frame: int) -> list[bytes]:
         """The messages of some characters, each at most once, at shown frame ``frame`` of ``tick``."""
         count = len(rows)
         table = np.fromiter(chain.from_iterable(rows), np.int64, 4 * count).reshape(count, 4)
-        write_poses(table, tick, frame, self._shown, self._out, self._ends)
+        write_poses(table, tick, frame, self._kept)
         ends = self._ends[:count].tolist()
         data = self._out[: ends[-1] if ends else 0].tobytes()
         return [data[start:end] for start, end in zip((0, *ends), ends, strict=False)]

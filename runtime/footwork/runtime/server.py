@@ -261,8 +261,7 @@ class Server:
         """Listen, and make each tick as soon as all have asked for it."""
         renewed = now_ns()
         while not (self._stopping or (until is not None and until())):
-            if self._router.poll(self._exchange.patience):
-                self._exchange.take(now_ns() + SECOND // TICK_RATE)
+            self._exchange.wait(SECOND // TICK_RATE)
             self._make_steps()
             self._exchange.retry()
             if now_ns() - renewed > SECOND // TICK_RATE:

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from footwork.motion.kept import Kept, keep
 from footwork.runtime.pose_frames import PoseFrames
-from footwork.runtime.world import World
+from footwork.runtime.ticking import show_kept
+from footwork.runtime.world import World, require_fraction
 
 
 @numba.njit(cache=True, nogil=True)
@@ -18,6 +19,14 @@ def _note(slots: NDArray, kept: Kept) -> None:
         here = node[who]
         behaviour[who], clip[who], source_frame[who] = told[here, 0], told[here, 1], told[here, 2]
         transition[who] = not natural[who]
+
+
+@numba.njit(cache=True, nogil=True)
+def _show(slots: NDArray, fraction: float, noted: bool, kept: Kept) -> None:
+    poses, actions = kept.parts
+    show_kept(slots, fraction, poses)
+    if not noted:
+        _note(slots, actions)
 
 
 class ShownActions:
@@ -42,7 +51,12 @@ class ShownActions:
         number = np.array([*numbers, -1])[graph.behaviour]  # of a frame of none, -1, the last
         told = np.stack([number, *graph.nearest_source], axis=1).astype(np.int32)
         shown = self.behaviour, self.clip, self.source_frame, self.transition
-        self._world, self._kept = world, keep((world.node, world.natural, told, *shown))
+        self._world, self._actions = world, keep((world.node, world.natural, told, *shown))
+        self._poses_and_actions = keep((world.showing, self._actions))
+        self._noted = False
+        self.note()  # compiles what it calls, or loads it from the cache, and so does
+        self.show(1.0)
+        self.forget()
 
     @property
     def frames(self) -> PoseFrames:
@@ -58,7 +72,22 @@ class ShownActions:
             transition=self.transition,
         )
 
+    def forget(self) -> None:
+        """Look anew for what characters do, which is the same in all frames of a tick, once it is asked for."""
+        self._noted = False
+
     def note(self) -> None:
         """Write what all characters do after the tick last made."""
-        if len(self._world.slots):
-            _note(self._world.slots, self._kept)
+        if not self._noted:
+            _note(self._world.slots, self._actions)
+            self._noted = True
+
+    def show(self, fraction: float) -> None:
+        """``note``, and write the poses at a fraction of the tick.
+
+        Raises:
+            WorldError: for a fraction outside (0, 1].
+        """
+        require_fraction(fraction)
+        _show(self._world.slots, fraction, self._noted, self._poses_and_actions)
+        self._noted = True

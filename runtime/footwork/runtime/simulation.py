@@ -81,14 +81,12 @@ class Simulation:
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._actions = ShownActions(self.world, self.behaviours)
         self.shown = self._actions.frames
-        self._nothing_shown = self._no_poses(1, 0, 0)
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
         memory, sound = self._controller.memory(capacity), getattr(self._controller, "sound", None)
         self._snapshots = Snapshots(self.world, self.orders, memory, belongs_to, sound)
         self._recorder: Recorder | None = None
-        self._noted = False
 
     @property
     def full(self) -> bool:
@@ -114,6 +112,7 @@ class Simulation:
         start = behaviour or self._idle
         slot = self.world.spawn(self._start[start] if node < 0 else node, x, z, yaw)
         self._controller.begin(slot)
+        self._actions.forget()
         self.orders.begin(slot, yaw, self.vocabulary.index(self._idle if start in self._one_shot else start), held)
         self._record(r.Spawned, slot, float(x), float(z), float(yaw), behaviour, node, held)
         return slot
@@ -159,7 +158,8 @@ class Simulation:
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
-        self._make(self._nothing_shown)
+        self._ticks.step(self.world.slots)
+        self._note_ticks(1)
 
     def play(self, ticks: int, frames: int) -> NDArray[np.float32]:
         """Make ticks without a change of commands, and return the poses of all characters in them.
@@ -178,13 +178,13 @@ class Simulation:
         if self._recorder is not None and ticks > LONGEST_PLAY:
             raise InputError(f"{ticks} ticks, expected at most {LONGEST_PLAY} at once while recording", "play")
         poses = self._no_poses(ticks, frames, len(self.world.slots))
-        self._make(poses)
+        self._ticks.make(self.world.slots, NOTHING, poses)
+        self._note_ticks(ticks)
         return poses
 
-    def _make(self, poses: NDArray[np.float32]) -> None:
-        self._ticks.make(self.world.slots, NOTHING, poses)
-        self.tick += len(poses)
-        self._noted = False
+    def _note_ticks(self, ticks: int) -> None:
+        self.tick += ticks
+        self._actions.forget()
         if self._recorder is not None and self.tick - self._recorder.state_tick >= r.STATE_TICKS:
             self._record_state(self._recorder)
 
@@ -210,7 +210,7 @@ class Simulation:
                 cannot be; nothing has changed then.
         """
         tick = self._snapshots.put(blob, self._rows(slots))
-        self._noted = False
+        self._actions.forget()
         self._record(r.Restored, tuple(map(int, slots)), blob)
         return tick
 
@@ -234,7 +234,7 @@ class Simulation:
             self.vocabulary.require(command)
         schedule = schedule_of(given)
         self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
-        self._noted = False
+        self._actions.forget()
         if self._recorder is not None:
             self._record(r.Resimulated, tuple(map(int, slots)), ticks, rows_of(schedule))
 
@@ -275,22 +275,16 @@ class Simulation:
     @property
     def behaviour(self) -> NDArray[np.int32]:
         """What each slot's character does in this tick, an index into ``behaviours`` or -1.  # (capacity,)"""
-        return self._noted_actions().behaviour
+        self._actions.note()
+        return self._actions.behaviour
 
     @property
     def transition(self) -> NDArray[np.bool_]:
         """Whether each one's step to this tick left the captured order.  # (capacity,)"""
-        return self._noted_actions().transition
-
-    def _noted_actions(self) -> ShownActions:
-        """What every character does in this tick; the same in all of its frames, and looked up once it is asked for."""
-        if not self._noted:
-            self._actions.note()
-            self._noted = True
-        return self._actions
+        self._actions.note()
+        return self._actions.transition
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
-        self.world.show(fraction)
-        self._noted_actions()
+        self._actions.show(fraction)
         return self.shown

@@ -33,7 +33,7 @@ class SingleTicks(ABC):
         frames = poses.shape[1]
         for tick, shown in enumerate(poses):
             self._give(schedule, tick)
-            self._step(slots)
+            self.step(slots)
             for frame in range(frames):
                 root, rotations = self._world.show((frame + 1) / frames)
                 shown[frame, :, :3] = root[slots]
@@ -47,5 +47,5 @@ class SingleTicks(ABC):
             self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
 
     @abstractmethod
-    def _step(self, slots: NDArray[np.intp]) -> None:
-        """Take characters through a tick."""
+    def step(self, slots: NDArray[np.intp]) -> None:
+        """Take the characters of some slots, in rising order, through a tick."""

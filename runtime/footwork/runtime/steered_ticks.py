@@ -11,7 +11,7 @@ from footwork.controllers.orders import Orders, ask, put_in_force
 from footwork.controllers.steering import SteeringController, steer
 from footwork.motion.kept import Kept, keep
 from footwork.motion.moves import no_moves
-from footwork.runtime.schedule import Schedule
+from footwork.runtime.schedule import NOTHING, Schedule
 from footwork.runtime.ticking import advance, show_characters
 from footwork.runtime.world import World
 
@@ -37,7 +37,8 @@ def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: K
     node, place, heading = characters.node, characters.place, in_force.heading
     asked, asked_speed = in_force.asked, in_force.asked_speed
     count, frames, joints = slots.shape[0], poses.shape[1], (poses.shape[3] - 3) // 4
-    root, rotations = np.empty((node.shape[0], 3), np.float32), np.empty((node.shape[0], joints, 4), np.float32)
+    room = node.shape[0] if frames else 0
+    root, rotations = np.empty((room, 3), np.float32), np.empty((room, joints, 4), np.float32)
     come = 0
     for tick in range(poses.shape[0]):
         while come < when.shape[0] and when[come] <= tick:
@@ -69,6 +70,13 @@ def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: K
             show_characters(slots, (frame + 1) / frames, characters, motion, smoothing, root, rotations)
             _copy_shown(slots, root, rotations, poses[tick, frame])
     return -1
+
+
+@numba.njit(cache=True, nogil=True)
+def make_tick(slots: NDArray, kept: Kept) -> int:
+    """``make_ticks`` of all else that was kept."""
+    schedule, steering, remembered, poses = kept.parts
+    return make_ticks(slots, schedule, steering, remembered, poses)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -107,6 +115,17 @@ class SteeredTicks:
         moves = self._moves
         room = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
         self._steering = keep((world.graph.behaviour, controller.policy, held, orders.in_force, room))
+        unseen = np.empty((1, 0, 0, 3 + 4 * world.graph.skeleton.joint_count), dtype=np.float32)
+        self._one_tick = keep((NOTHING, self._steering, world.remembered, unseen))
+
+    def step(self, slots: NDArray[np.intp]) -> None:
+        """Take the characters of some slots, in rising order, through a tick.
+
+        Raises:
+            WrongMove: where the table's move cannot be made in this world: nobody has moved then.
+        """
+        if len(slots):
+            self._require_made(make_tick(slots, self._one_tick))
 
     def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
         """Take the characters of some slots, in rising order, through the ticks of ``poses``; see ``make_ticks``.
@@ -116,6 +135,8 @@ class SteeredTicks:
         """
         if not len(slots):
             return
-        wrong = make_ticks(slots, schedule, self._steering, self._world.remembered, poses)
+        self._require_made(make_ticks(slots, schedule, self._steering, self._world.remembered, poses))
+
+    def _require_made(self, wrong: int) -> None:
         if wrong >= 0:
             self._world.raise_wrong_move(wrong, self._moves)

@@ -160,7 +160,7 @@ def advance_kept(
 
 
 @numba.njit(cache=True, nogil=True)
-def show_kept(slots: NDArray, fraction: float, remembered: Kept, shown_root: NDArray, shown_rotations: NDArray) -> None:
-    """``show_characters`` of the characters, the motion and the smoothing that were kept."""
-    characters, motion, smoothing = remembered.parts
+def show_kept(slots: NDArray, fraction: float, kept: Kept) -> None:
+    """``show_characters`` of all else that was kept."""
+    characters, motion, smoothing, shown_root, shown_rotations = kept.parts
     show_characters(slots, fraction, characters, motion, smoothing, shown_root, shown_rotations)
