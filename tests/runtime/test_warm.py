@@ -36,7 +36,6 @@ def test_a_tick_after_warming_compiles_nothing():
     characters = simulation.Simulation(bundle, 3)
     before = kernels()
     assert before[steered_ticks.make_ticks]
-    assert before[steered_ticks.make_tick]
     assert before[ticking.show_kept]
     for slot in range(3):
         characters.spawn(float(slot), 0.0, 0.0)

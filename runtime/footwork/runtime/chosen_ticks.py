@@ -24,8 +24,7 @@ class ChosenTicks(SingleTicks):
         self._controller = controller
         self._moves, self._chosen = no_moves(world.capacity), no_moves(world.capacity)
 
-    def step(self, slots: NDArray[np.intp]) -> None:
-        """Take the characters of some slots, in rising order, through a tick."""
+    def _step(self, slots: NDArray[np.intp]) -> None:
         world, orders = self._world, self._orders
         node = world.node[slots]
         ask(slots, world.graph.behaviour[node], orders.in_force)

@@ -94,8 +94,7 @@ class DuelTicks(SingleTicks):
             pairs.append(Pair(duel.fighters[both], ring, tally))
         return pairs
 
-    def step(self, slots: NDArray[np.intp]) -> None:
-        """Take the characters of some slots, in rising order, through a tick."""
+    def _step(self, slots: NDArray[np.intp]) -> None:
         ask(slots, self._world.graph.behaviour[self._world.node[slots]], self._orders.in_force)
         self.happened = []
         for slot in slots.tolist():

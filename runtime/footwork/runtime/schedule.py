@@ -1,9 +1,8 @@
-"""Commands with the ticks that they are for, as arrays that kernels read."""
+"""Commands with the ticks that they are for, as an array that kernels read."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from operator import itemgetter
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,29 +11,11 @@ from footwork.controllers.command import Command
 from footwork.errors import InputError
 from footwork.runtime.recording import LONGEST_GAP
 
-
-class Schedule(NamedTuple):
-    """K commands in the order in which they come into force.
-
-    Args:
-        tick: before which tick of a run, from 0.  # (K,) int64
-        slot: whose.  # (K,) int64
-        heading: of the commands, radians.  # (K,) float64
-        behaviour: of the commands.  # (K,) int64
-        one_shot: of the commands.  # (K,) int64
-        speed: of the commands, m/s, ANY_SPEED where any will do.  # (K,) float64
-    """
-
-    tick: NDArray[np.int64]
-    slot: NDArray[np.int64]
-    heading: NDArray[np.float64]
-    behaviour: NDArray[np.int64]
-    one_shot: NDArray[np.int64]
-    speed: NDArray[np.float64]
-
-
-_KINDS = (np.int64, np.int64, np.float64, np.int64, np.int64, np.float64)
-_ROW = np.dtype(list(zip(Schedule._fields, _KINDS, strict=True)))
+Schedule = NDArray[np.float64]
+"""K commands in the order in which they come into force: before which tick of a run, from 0; whose, a slot; heading,
+radians; behaviour; one-shot behaviour; speed, m/s, ANY_SPEED where any will do. One array, since each that is handed to
+a kernel costs as much as what the kernel does with it.  # (K, 6)"""
+_COLUMNS = 6
 
 
 def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
@@ -44,8 +25,13 @@ def schedule_of(given: Iterable[tuple[int, int, Command]]) -> Schedule:
         (tick, slot, command.heading, command.behaviour, command.one_shot, command.asked_speed)
         for tick, slot, command in ordered
     ]
-    table = np.array(rows, dtype=_ROW)
-    return Schedule(*(table[name] for name in Schedule._fields))
+    return np.array(rows, dtype=np.float64).reshape(-1, _COLUMNS)
+
+
+def commands_in(schedule: Schedule) -> Iterator[tuple[int, int, float, int, int, float]]:
+    """The commands one by one: tick, slot, heading, behaviour, one-shot behaviour and speed."""
+    for tick, slot, heading, behaviour, one_shot, speed in schedule.tolist():
+        yield int(tick), int(slot), heading, int(behaviour), int(one_shot), speed
 
 
 def require_within(ticks: int, given: Iterable[tuple[int, int, Command]]) -> None:
@@ -63,8 +49,7 @@ def require_within(ticks: int, given: Iterable[tuple[int, int, Command]]) -> Non
 
 def rows_of(schedule: Schedule) -> tuple[tuple, ...]:
     """The commands one by one, with None in place of ANY_SPEED."""
-    rows = zip(*(column.tolist() for column in schedule), strict=True)
-    return tuple((*whole, None if math.isnan(speed) else speed) for *whole, speed in rows)
+    return tuple((*whole, None if math.isnan(speed) else speed) for *whole, speed in commands_in(schedule))
 
 
 NOTHING = schedule_of(())

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from footwork.motion.kept import Kept, keep
 from footwork.runtime.pose_frames import PoseFrames
-from footwork.runtime.ticking import show_kept
-from footwork.runtime.world import World, require_fraction
+from footwork.runtime.world import World
 
 
 @numba.njit(cache=True, nogil=True)
@@ -19,14 +18,6 @@ def _note(slots: NDArray, kept: Kept) -> None:
         here = node[who]
         behaviour[who], clip[who], source_frame[who] = told[here, 0], told[here, 1], told[here, 2]
         transition[who] = not natural[who]
-
-
-@numba.njit(cache=True, nogil=True)
-def _show(slots: NDArray, fraction: float, noted: bool, kept: Kept) -> None:
-    poses, actions = kept.parts
-    show_kept(slots, fraction, poses)
-    if not noted:
-        _note(slots, actions)
 
 
 class ShownActions:
@@ -51,11 +42,9 @@ class ShownActions:
         number = np.array([*numbers, -1])[graph.behaviour]  # of a frame of none, -1, the last
         told = np.stack([number, *graph.nearest_source], axis=1).astype(np.int32)
         shown = self.behaviour, self.clip, self.source_frame, self.transition
-        self._world, self._actions = world, keep((world.node, world.natural, told, *shown))
-        self._poses_and_actions = keep((world.showing, self._actions))
+        self._world, self._kept = world, keep((world.node, world.natural, told, *shown))
         self._noted = False
-        self.note()  # compiles what it calls, or loads it from the cache, and so does
-        self.show(1.0)
+        self.note()  # compiles what it calls, or loads it from the cache
         self.forget()
 
     @property
@@ -79,15 +68,5 @@ class ShownActions:
     def note(self) -> None:
         """Write what all characters do after the tick last made."""
         if not self._noted:
-            _note(self._world.slots, self._actions)
+            _note(self._world.slots, self._kept)
             self._noted = True
-
-    def show(self, fraction: float) -> None:
-        """``note``, and write the poses at a fraction of the tick.
-
-        Raises:
-            WorldError: for a fraction outside (0, 1].
-        """
-        require_fraction(fraction)
-        _show(self._world.slots, fraction, self._noted, self._poses_and_actions)
-        self._noted = True

@@ -81,6 +81,7 @@ class Simulation:
         self._start = {name: self._controller.start_node(name) for name in self.behaviours}
         self._actions = ShownActions(self.world, self.behaviours)
         self.shown = self._actions.frames
+        self._nothing_shown = self._no_poses(1, 0, 0)
         warm_kernels(self._controller)
         self._ticks = ticks_of(self._controller, self.world, self.orders)
         belongs_to = f"{bundle.digest} {type(self._controller).__name__}"
@@ -158,8 +159,7 @@ class Simulation:
 
     def step(self) -> None:
         """Make one tick: choose a move for every character and make it."""
-        self._ticks.step(self.world.slots)
-        self._note_ticks(1)
+        self._make(self._nothing_shown)
 
     def play(self, ticks: int, frames: int) -> NDArray[np.float32]:
         """Make ticks without a change of commands, and return the poses of all characters in them.
@@ -178,12 +178,12 @@ class Simulation:
         if self._recorder is not None and ticks > LONGEST_PLAY:
             raise InputError(f"{ticks} ticks, expected at most {LONGEST_PLAY} at once while recording", "play")
         poses = self._no_poses(ticks, frames, len(self.world.slots))
-        self._ticks.make(self.world.slots, NOTHING, poses)
-        self._note_ticks(ticks)
+        self._make(poses)
         return poses
 
-    def _note_ticks(self, ticks: int) -> None:
-        self.tick += ticks
+    def _make(self, poses: NDArray[np.float32]) -> None:
+        self._ticks.make(self.world.slots, NOTHING, poses)
+        self.tick += len(poses)
         self._actions.forget()
         if self._recorder is not None and self.tick - self._recorder.state_tick >= r.STATE_TICKS:
             self._record_state(self._recorder)
@@ -286,5 +286,6 @@ class Simulation:
 
     def show(self, fraction: float) -> PoseFrames:
         """What is shown of the tick last made at a fraction of it in (0, 1]; 1 is its own moment."""
-        self._actions.show(fraction)
+        self.world.show(fraction)
+        self._actions.note()
         return self.shown

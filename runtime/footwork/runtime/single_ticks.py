@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from footwork.controllers.command import Command
 from footwork.controllers.orders import Orders
-from footwork.runtime.schedule import Schedule
+from footwork.runtime.schedule import Schedule, commands_in
 from footwork.runtime.world import World
 
 
@@ -33,19 +33,18 @@ class SingleTicks(ABC):
         frames = poses.shape[1]
         for tick, shown in enumerate(poses):
             self._give(schedule, tick)
-            self.step(slots)
+            self._step(slots)
             for frame in range(frames):
                 root, rotations = self._world.show((frame + 1) / frames)
                 shown[frame, :, :3] = root[slots]
                 shown[frame, :, 3:] = rotations[slots].reshape(len(slots), rotations.shape[1] * 4)
 
     def _give(self, schedule: Schedule, tick: int) -> None:
-        due = schedule.tick == tick
-        rows = zip(*(array[due].tolist() for array in schedule), strict=True)
-        for _, slot, heading, behaviour, one_shot, speed in rows:
-            shown = int(self._world.graph.behaviour[self._world.node[slot]])
-            self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
+        for when, slot, heading, behaviour, one_shot, speed in commands_in(schedule):
+            if when == tick:
+                shown = int(self._world.graph.behaviour[self._world.node[slot]])
+                self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
 
     @abstractmethod
-    def step(self, slots: NDArray[np.intp]) -> None:
-        """Take the characters of some slots, in rising order, through a tick."""
+    def _step(self, slots: NDArray[np.intp]) -> None:
+        """Take characters through a tick."""

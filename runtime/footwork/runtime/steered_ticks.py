@@ -11,13 +11,13 @@ from footwork.controllers.orders import Orders, ask, put_in_force
 from footwork.controllers.steering import SteeringController, steer
 from footwork.motion.kept import Kept, keep
 from footwork.motion.moves import no_moves
-from footwork.runtime.schedule import NOTHING, Schedule
+from footwork.runtime.schedule import Schedule
 from footwork.runtime.ticking import advance, show_characters
 from footwork.runtime.world import World
 
 
 @numba.njit(cache=True, nogil=True)
-def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: Kept, poses: NDArray) -> int:
+def make_ticks(slots: NDArray, schedule: Schedule, poses: NDArray, kept: Kept) -> int:
     """Take characters through T ticks and write their poses at F moments of each.
 
     Returns -1, or the first character whose move cannot be made: ticks end before that one.
@@ -25,15 +25,13 @@ def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: K
     Args:
         slots: rows of the characters.  # (n,)
         schedule: commands to them.
-        steering: the graph's behaviour by node, the Policy, SteeringController.memory, the commands InForce, and room
-            to work in: the arrays of Moves, a row for each slot.
-        remembered: World.remembered.
         poses: written: place of joint 0, then local rotations joint by joint.  # (T, F, n, 3 + 4 J) float32
+        kept: what the world keeps of characters, motion and smoothing; the graph's behaviour by node, the Policy,
+            SteeringController.memory, the commands InForce, and room to work in: the arrays of Moves, a row for each
+            slot.
     """
-    behaviour, policy, held, in_force, moves = steering.parts
-    characters, motion, smoothing = remembered.parts
+    characters, motion, smoothing, behaviour, policy, held, in_force, moves = kept.parts
     edge, target, displacement, adjustment, natural = moves
-    when, who, ahead, lasting, once, pace = schedule
     node, place, heading = characters.node, characters.place, in_force.heading
     asked, asked_speed = in_force.asked, in_force.asked_speed
     count, frames, joints = slots.shape[0], poses.shape[1], (poses.shape[3] - 3) // 4
@@ -41,10 +39,10 @@ def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: K
     root, rotations = np.empty((room, 3), np.float32), np.empty((room, joints, 4), np.float32)
     come = 0
     for tick in range(poses.shape[0]):
-        while come < when.shape[0] and when[come] <= tick:
-            whose = who[come]
-            shows = int(behaviour[node[whose]])
-            put_in_force(whose, ahead[come], lasting[come], once[come], pace[come], shows, in_force)
+        while come < schedule.shape[0] and schedule[come, 0] <= tick:
+            _, who, ahead, lasting, once, pace = schedule[come]
+            whose = int(who)
+            put_in_force(whose, ahead, int(lasting), int(once), pace, int(behaviour[node[whose]]), in_force)
             come += 1
         ask(slots, behaviour[node[slots]], in_force)
         steer(
@@ -70,13 +68,6 @@ def make_ticks(slots: NDArray, schedule: Schedule, steering: Kept, remembered: K
             show_characters(slots, (frame + 1) / frames, characters, motion, smoothing, root, rotations)
             _copy_shown(slots, root, rotations, poses[tick, frame])
     return -1
-
-
-@numba.njit(cache=True, nogil=True)
-def make_tick(slots: NDArray, kept: Kept) -> int:
-    """``make_ticks`` of all else that was kept."""
-    schedule, steering, remembered, poses = kept.parts
-    return make_ticks(slots, schedule, steering, remembered, poses)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -114,18 +105,8 @@ class SteeredTicks:
         self._world, self._moves = world, no_moves(world.capacity)
         moves = self._moves
         room = moves.edge, moves.target, moves.displacement, moves.adjustment, moves.natural
-        self._steering = keep((world.graph.behaviour, controller.policy, held, orders.in_force, room))
-        unseen = np.empty((1, 0, 0, 3 + 4 * world.graph.skeleton.joint_count), dtype=np.float32)
-        self._one_tick = keep((NOTHING, self._steering, world.remembered, unseen))
-
-    def step(self, slots: NDArray[np.intp]) -> None:
-        """Take the characters of some slots, in rising order, through a tick.
-
-        Raises:
-            WrongMove: where the table's move cannot be made in this world: nobody has moved then.
-        """
-        if len(slots):
-            self._require_made(make_tick(slots, self._one_tick))
+        on = world.characters, world.motion, world.smoothing
+        self._kept = keep((*on, world.graph.behaviour, controller.policy, held, orders.in_force, room))
 
     def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
         """Take the characters of some slots, in rising order, through the ticks of ``poses``; see ``make_ticks``.
@@ -135,8 +116,6 @@ class SteeredTicks:
         """
         if not len(slots):
             return
-        self._require_made(make_ticks(slots, schedule, self._steering, self._world.remembered, poses))
-
-    def _require_made(self, wrong: int) -> None:
+        wrong = make_ticks(slots, schedule, poses, self._kept)
         if wrong >= 0:
             self._world.raise_wrong_move(wrong, self._moves)

@@ -19,10 +19,6 @@ from footwork.runtime.world import World
 class Ticks(Protocol):
     """Takes characters through ticks."""
 
-    def step(self, slots: NDArray[np.intp]) -> None:
-        """Take those of some slots, in rising order, through a tick."""
-        ...
-
     def make(self, slots: NDArray[np.intp], schedule: Schedule, poses: NDArray[np.float32]) -> None:
         """Take those of some slots, in rising order, through T ticks and write their poses at F moments of each.
 

@@ -42,7 +42,6 @@ class World:
         motion: what they move on.
         smoothing: how they are shown.
         remembered: these three, kept for kernels.
-        showing: these and what ``show`` returns, kept for kernels.
         node: where each is on the graph.  # (capacity,) int32
         place: planar place (x, z, yaw), metres and radians, yaw within -pi..pi.  # (capacity, 3) float64
         edge: the edge last taken, ``LEAP`` where it was none.  # (capacity,) int32
@@ -78,7 +77,7 @@ class World:
         self.node, self.place = self.characters.node, self.characters.place
         self.edge, self.natural = self.characters.edge, self.characters.natural
         self._shown = np.zeros((capacity, 3), dtype=np.float32), np.zeros((capacity, joints, 4), dtype=np.float32)
-        self.showing = keep((self.characters, self.motion, self.smoothing, *self._shown))
+        self._showing = keep((self.characters, self.motion, self.smoothing, *self._shown))
 
     def spawn(self, node: int, x: float, z: float, yaw: float) -> int:
         """Put a new character on a node at a planar place; its slot is the lowest free one.
@@ -180,9 +179,10 @@ class World:
         Raises:
             WorldError: for a fraction outside (0, 1].
         """
-        require_fraction(fraction)
+        if not 0.0 < fraction <= 1.0:
+            raise WorldError(f"fraction is {fraction}, expected above 0 and at most 1")
         if len(self.slots):
-            show_kept(self.slots, fraction, self.showing)
+            show_kept(self.slots, fraction, self._showing)
         return self._shown
 
     def require(self, slot: int) -> None:
@@ -209,16 +209,6 @@ class World:
             valid = f"{self.graph.target[edge]}" if edge != LEAP else f"0 to {self.graph.node_count - 1}"
             raise WrongMove(f"character {slot} at node {node} was sent to node {target}, expected {valid}")
         raise WrongMove(f"character {slot} at node {node} was sent to a place that is not finite")
-
-
-def require_fraction(fraction: float) -> None:
-    """Refuse what is no fraction of a tick that can be shown.
-
-    Raises:
-        WorldError: for a fraction outside (0, 1].
-    """
-    if not 0.0 < fraction <= 1.0:
-        raise WorldError(f"fraction is {fraction}, expected above 0 and at most 1")
 
 
 def _require_finite(x: float, z: float, yaw: float) -> None:
