@@ -10,7 +10,7 @@ from footwork.errors import InputError
 from footwork.motion.bundle import Bundle
 from footwork.motion.graph import MotionGraph
 from footwork.motion.mirror import mirrored
-from footwork.motion.task import SteeringTask
+from footwork.motion.task import BEHAVIOURS, SteeringTask
 from footwork.motion.trace import SOURCE_HZ, Trace, read_trace
 from footwork.study.contender import Contender
 from footwork.study.motion_matching.tuning import split
@@ -39,7 +39,7 @@ class Setting:
         graph: STANDARD or WELL_CONNECTED.
         threshold: of its transitions.
         mirror: whether clips are played with left and right exchanged, too.
-        warp: the largest extra turn of a tick, degrees.
+        warp: the largest extra turn of a tick, degrees, whatever a frame shows.
         bridges: ways from every frame to each other behaviour (``GraphOptions.bridges``).
         reward: of its policy (``SteeringTask.reward``).
         weight: of the transition quality, where the reward is a sum.
@@ -62,7 +62,9 @@ class Setting:
     @property
     def task(self) -> SteeringTask:
         """What its policy is solved for."""
-        return SteeringTask(reward=self.reward, weight=self.weight, warp=math.radians(self.warp))
+        everywhere: dict[str, float] = dict.fromkeys(BEHAVIOURS, 1.0)
+        warp = math.radians(self.warp)
+        return SteeringTask(reward=self.reward, weight=self.weight, warp=warp, warp_share=everywhere)
 
     @property
     def words(self) -> str:
