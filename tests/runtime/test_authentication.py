@@ -82,6 +82,12 @@ def test_who_has_an_allowed_key_gets_in_and_gets_answers(router, folder, alice):
         assert socket.recv() == b"welcome"
 
 
+def test_who_waits_for_the_next_message_lets_in_who_has_a_key(router, folder, alice):
+    with client(router, CurveKeys(alice, folder.pair.public)):
+        assert (router.next(1000 * TIMEOUT) or [])[1:] == [b"hello"]
+        assert router.next(10) is None
+
+
 def test_who_has_not_is_never_heard_and_hears_nothing(router, folder, alice):
     eve, other = KeyPair.new(), KeyPair.new()
     strangers = [

@@ -1,6 +1,7 @@
 """The ROUTER socket: addresses, dead and slow peers."""
 
 import socket
+import threading
 import time
 
 import pytest
@@ -45,6 +46,16 @@ def test_the_port_that_was_taken_is_told(router, dealer):
     assert router.receive() is None
 
 
+def test_the_next_message_is_waited_for_as_long_as_told(router, dealer):
+    assert router.next(20) is None
+    later = threading.Timer(0.2, dealer.send, [b"hello"])
+    later.start()
+    assert router.next(20000)[1:] == [b"hello"]
+    later.join()
+    assert router.next(20) is None
+    assert router.receive() is None
+
+
 @pytest.mark.skipif(not has_ipv6(), reason="this machine has no IPv6")
 def test_an_ipv6_address_is_bound_and_local():
     router = Router("tcp://[::1]:0")
@@ -70,11 +81,11 @@ def test_a_message_of_very_many_frames_is_read_in_pieces(router, dealer):
 
 def test_the_rest_of_a_message_is_not_taken_for_another(router, dealer):
     dealer.send_multipart([b"part"] * 600)
-    assert router.poll(20000)
-    assert len(router.receive()) == 3
+    assert len(router.next(20000)) == 3
     for _ in range(5):
         router.poll(1)
         assert router.receive() is None
+        assert router.next(1) is None
 
 
 def test_a_peer_that_does_not_read_loses_messages_and_takes_no_time(router, dealer):
