@@ -104,7 +104,8 @@ def test_a_bundle_without_states_is_refused(tmp_path, capsys):
         (["serve", "BUNDLE", "--opponent", "patient", "--seed", "-1"], "expected 0 to"),
         (["serve", "TOY", "--opponent", "patient"], "no states"),
         (["play", "tcp://127.0.0.1:1", "--opponent", "patient", "--text"], "has opponents or none"),
-        (["play", "BUNDLE", "--fight", "--opponent", "patient"], "use --styles"),
+        (["play", "BUNDLE", "--fight", "--opponent", "patient"], "--opponent: is for a fight of one's own"),
+        (["play", "BUNDLE", "--fight", "--config", "fight.toml"], "--config: is for a fight of one's own"),
     ],
 )
 def test_opponents_that_cannot_be_are_refused_in_a_line(arguments, problem, bundle, tmp_path, capsys):
@@ -117,7 +118,7 @@ def test_opponents_that_cannot_be_are_refused_in_a_line(arguments, problem, bund
     assert "Traceback" not in said
 
 
-def test_a_recorded_fight_of_players_is_shown_as_a_film_with_everyones_health(bundle, tmp_path):
+def test_a_recorded_fight_of_players_is_shown_as_a_film_with_everyones_health(bundle, tmp_path, capsys):
     arena, path = Arena(fighting_bundle(), 2, opponent=opponent_named("aggressive")), tmp_path / "fight.footrec"
     recorder = start_recording(arena, path, rate=30)
     for ticks in (40, 20):
@@ -128,4 +129,6 @@ def test_a_recorded_fight_of_players_is_shown_as_a_film_with_everyones_health(bu
     recorder.wait()
     film = msgpack.unpackb(recorded_film(path, Path(bundle), 0.0, None))
     assert [(role["first"], len(role["health"])) for role in film["roles"]] == [(0, 160), (0, 160), (40, 80), (40, 80)]
+    assert main(["play", str(path), "--bundle", str(bundle), "--opponent", "patient"]) == 2
+    assert "or was recorded" in capsys.readouterr().err
     assert np.frombuffer(film["roles"][0]["health"], "<f4")[0] == 1.0

@@ -73,9 +73,8 @@ def play(
         raise InputError(f"{seconds:g} seconds, expected more than 0", "--seconds")
     curve = _curve(key, server_key)
     recorded = _is_recorded(target, bundle)
-    if fight and opponent is not None:
-        raise InputError("of a fight that is watched it says nothing, use --styles", "--opponent")
     if fight or recorded:
+        _require_only_watched(opponent, config)
         if text or other is not None:
             raise InputError("a fight or a recording is looked at alone and in a browser", target)
         if recorded:
@@ -110,6 +109,13 @@ def play(
             open_browser=open_browser,
             look=look,
         )
+
+
+def _require_only_watched(opponent: str | None, config: Path | None) -> None:
+    """Refuse what is for those who fight themselves."""
+    for option, given in {"--opponent": opponent, "--config": config}.items():
+        if given is not None:
+            raise InputError("is for a fight of one's own; one that is watched has --styles or was recorded", option)
 
 
 def _fight_options(opponent: str | None, config: Path | None, seed: int) -> list[str]:
