@@ -10,10 +10,19 @@ import time
 from pathlib import Path
 
 import pytest
+import zmq
 
 from footwork.protocol.client import Client
+from footwork.protocol.codec import encode
+from footwork.protocol.messages import Hello, Ping
+from footwork.runtime.clock import now_ns
+from footwork.runtime.exchange import Exchange
+from footwork.runtime.host import Host
+from footwork.runtime.router import Router
+from footwork.runtime.simulation import Simulation
 from served import TIMEOUT, consecutive, ticks
 from talk import LIMITS, SECOND, Talk, spawn
+from toy_bundle import toy_bundle
 
 IDLE = 2.0
 STOPPED = 2.6  # longer than a session may be silent
@@ -115,6 +124,31 @@ def test_neither_a_jump_of_the_clock_nor_a_stop_is_noticed_by_a_session(jumping,
     (recording,) = tmp_path.iterdir()
     told = time.strptime(recording.name[:16], "%Y%m%dT%H%M%SZ")
     assert abs(time.mktime(told) - time.mktime(time.gmtime())) > 3600  # the jumps were real
+
+
+class StoppedWhileWaiting(Router):
+    """As of a process that is stopped where it nearly always is."""
+
+    def next(self, milliseconds):
+        time.sleep(1.2)
+        return super().next(milliseconds)
+
+
+def test_in_lock_step_what_came_while_the_process_was_stopped_is_heard_when_it_is_taken():
+    host = Host(Simulation(toy_bundle(), 1), 30, LIMITS, lockstep=True)
+    router, dealer = StoppedWhileWaiting("tcp://127.0.0.1:0"), zmq.Context.instance().socket(zmq.DEALER)
+    exchange = Exchange(host, router, LIMITS)
+    dealer.connect(router.address)
+    try:
+        for message in (Hello(version=1), Ping()):
+            dealer.send(encode(message))
+            time.sleep(0.1)
+            exchange.wait(SECOND)
+        (session,) = host.sessions.values()
+        assert now_ns() - SECOND < session.heard <= now_ns()
+    finally:
+        dealer.close(linger=0)
+        router.close()
 
 
 @pytest.mark.parametrize("forgiven", [False, True])

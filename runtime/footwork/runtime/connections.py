@@ -29,7 +29,7 @@ PILED_A_SECOND = 64
 """Bytes a second that may pile up besides: heartbeats are no messages, and who only listens sends nothing else."""
 _LOOKED_AT = 128
 """Connections looked at in one go."""
-_EVENTS_AT_ONCE = 512
+_EVENTS_AT_ONCE, _FOLLOWED = 512, 4
 _TCP_INFO_BYTES = 136
 _RECEIVED_AT = 128  # tcpi_bytes_received, Linux 4.1 and later
 
@@ -152,7 +152,9 @@ class Connections:
 
     def look(self) -> None:
         """Cut those that are silent or pile up bytes; some at a time, the others at later calls."""
-        self.follow()
+        for _ in range(_FOLLOWED):
+            if self.follow():
+                break
         descriptors = list(self._by_descriptor)
         first = self._next if self._next < len(descriptors) else 0
         self._next = first + _LOOKED_AT

@@ -54,16 +54,19 @@ class Exchange:
     def take(self, end: int) -> None:
         """Take messages until there are none for now; no longer than to ``end``, so that no flood holds a tick up."""
         self.beat()
-        while now_ns() < end and (parts := self._router.receive()) is not None:
-            self._take(parts)
+        self._take_waiting(end)
 
     def wait(self, most: int) -> None:
-        """Take messages once there is one, for so many nanoseconds at most; nobody is told anything until then."""
-        self.beat()
+        """Wait for a message for as long as ``patience``, then take what there is, for at most ``most`` nanoseconds."""
         parts = self._router.next(self.patience)
+        self.beat()  # a process is nearly always stopped while it waits: what came meanwhile is taken after that
         if parts is not None:
             self._take(parts)
-            self.take(now_ns() + most)
+            self._take_waiting(now_ns() + most)
+
+    def _take_waiting(self, end: int) -> None:
+        while now_ns() < end and (parts := self._router.receive()) is not None:
+            self._take(parts)
 
     def _take(self, parts: list[bytes]) -> None:
         if len(parts) == 2:

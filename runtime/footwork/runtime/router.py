@@ -164,7 +164,8 @@ class Router:
     def next(self, milliseconds: int) -> list[bytes] | None:
         """As ``receive``, waiting for at most so long: quicker than ``poll``, as it waits for nothing else.
 
-        Who comes and goes meanwhile is noted by ``look``; keys are always seen to.
+        Who comes and goes meanwhile is noted by ``look``; keys are always seen to. A signal that Python handles makes
+        it wait as long again.
         """
         if self._authenticator is not None or self._unread or self._there:
             return self.receive() if self.poll(milliseconds) else None

@@ -66,7 +66,7 @@ class ShownActions:
         self._noted = False
 
     def note(self) -> None:
-        """Write what all characters do after the tick last made."""
+        """Write what all characters do after the tick last made, unless it was written since ``forget``."""
         if not self._noted:
             _note(self._world.slots, self._kept)
             self._noted = True

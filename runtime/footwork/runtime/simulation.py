@@ -182,9 +182,9 @@ class Simulation:
         return poses
 
     def _make(self, poses: NDArray[np.float32]) -> None:
+        self._actions.forget()
         self._ticks.make(self.world.slots, NOTHING, poses)
         self.tick += len(poses)
-        self._actions.forget()
         if self._recorder is not None and self.tick - self._recorder.state_tick >= r.STATE_TICKS:
             self._record_state(self._recorder)
 
@@ -233,8 +233,8 @@ class Simulation:
             self.world.require(slot)
             self.vocabulary.require(command)
         schedule = schedule_of(given)
-        self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
         self._actions.forget()
+        self._ticks.make(rows, schedule, self._no_poses(ticks, 0, len(rows)))
         if self._recorder is not None:
             self._record(r.Resimulated, tuple(map(int, slots)), ticks, rows_of(schedule))
 

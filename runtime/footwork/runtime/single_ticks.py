@@ -40,10 +40,10 @@ class SingleTicks(ABC):
                 shown[frame, :, 3:] = rotations[slots].reshape(len(slots), rotations.shape[1] * 4)
 
     def _give(self, schedule: Schedule, tick: int) -> None:
-        for when, slot, heading, behaviour, one_shot, speed in commands_in(schedule):
-            if when == tick:
-                shown = int(self._world.graph.behaviour[self._world.node[slot]])
-                self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
+        due = schedule[schedule[:, 0] == tick]
+        for _, slot, heading, behaviour, one_shot, speed in commands_in(due):
+            shown = int(self._world.graph.behaviour[self._world.node[slot]])
+            self._orders.give(slot, Command(heading, behaviour, one_shot, speed), shown)
 
     @abstractmethod
     def _step(self, slots: NDArray[np.intp]) -> None:

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from footwork.controllers.command import Command
 from footwork.controllers.controller import Controller
 from footwork.controllers.orders import Orders
 from footwork.runtime.schedule import NOTHING
@@ -16,7 +15,6 @@ def warm_kernels(controller: Controller) -> None:
     slot = world.spawn(controller.start_node(controller.present[0]), 0.0, 0.0, 0.0)
     controller.begin(slot)
     orders.begin(slot, 0.0, 0)
-    orders.give(slot, Command(0.0, 0), 0)
     poses = np.zeros((1, 1, 1, 3 + 4 * controller.graph.skeleton.joint_count), dtype=np.float32)
     ticks_of(controller, world, orders).make(world.slots, NOTHING, poses)
     world.correct(slot, 0.0, 0.0, 0.0)
