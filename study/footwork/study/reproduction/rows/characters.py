@@ -88,7 +88,8 @@ def run(bench: Workbench) -> Result:
         numbers={"graphs": graphs, "others": others, "known": known, "best": best},
         notes=[
             f"Of {LARGE}: walk, run, jump and stop. There is no well-connected graph of mirrored clips: its search "
-            "takes sixteen times as long. Every policy has the same reward, a sum of control and smoothness. "
+            "takes sixteen times as long. Every policy has the same reward, a sum of control and smoothness. Warped is "
+            f"by up to {WARP:g}° a tick, whatever a frame shows; bridged, with {BRIDGES} ways to each other behaviour. "
             "Scored are players whom no policy learned from and no form of motion matching was tuned on. "
             "Decision is the time of a choice for each of 256 characters at once; made in is what graph, policy and "
             "score took, a well-connected graph being built for the first of its characters.",
