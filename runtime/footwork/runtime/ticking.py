@@ -41,9 +41,6 @@ def advance(
     wrong = first_wrong_move(slots, node, edge, target, displacement, adjustment, edge_start, graph_target)
     if wrong >= 0:
         return wrong
-    # to compiled code, each look into a tuple of arrays counts references: it is done once
-    node, place, taken, as_captured, glide, ticks_left, offsets, roots, locked, anchor, slip, stride = characters
-    _, _, contacts, root_position, root_velocity, nodes, legs, bones, _, floor = motion
     if smoothing.foot_lock:
         update_locks(
             slots,
