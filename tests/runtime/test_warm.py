@@ -1,7 +1,7 @@
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
-from footwork.controllers import orders, steering
+from footwork.controllers import orders, steering_kernels
 from footwork.motion import lookahead, moves
 from footwork.motion.kept import keep
 from footwork.runtime import (
@@ -25,7 +25,7 @@ def kernels() -> dict[Dispatcher, list]:
     """What each kernel of a tick is compiled for, those that only other kernels call among them."""
     feet = (foot_lock, foot_places, held_feet, leg_kernels, tick_feet)
     of_world = (moving, *feet, inertialisation, posing, ticking)
-    modules = (orders, steering, lookahead, moves, steered_ticks, shown_actions, *of_world)
+    modules = (orders, steering_kernels, lookahead, moves, steered_ticks, shown_actions, *of_world)
     found = [value for module in modules for value in vars(module).values() if isinstance(value, Dispatcher)]
     # what is kept is handed over before any tick
     return {kernel: list(kernel.signatures) for kernel in found if kernel is not keep}

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.orders import Orders, ask, put_in_force
-from footwork.controllers.steering import SteeringController, steer
+from footwork.controllers.steering import SteeringController
+from footwork.controllers.steering_kernels import steer
 from footwork.motion.kept import Kept, keep
 from footwork.motion.moves import no_moves
 from footwork.runtime.schedule import Schedule

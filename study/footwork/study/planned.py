@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from footwork.controllers.controller import Situations, present_behaviours
-from footwork.controllers.steering import turn_moves
+from footwork.controllers.steering_kernels import turn_moves
 from footwork.motion.graph import MotionGraph
 from footwork.motion.moves import Moves, along_edges
 from footwork.motion.turn_warp import TurnWarp
