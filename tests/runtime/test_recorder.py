@@ -93,9 +93,9 @@ def test_a_recording_cut_in_the_middle_of_a_record_replays_up_to_there(tmp_path:
 
 def full_disk(path: Path) -> None:
     """For a process of its own: go on although the recording may take no more than 4 KB."""
+    simulation = Simulation(BUNDLE, 1)  # before the limit: what it compiles is cached in files
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-    simulation = Simulation(BUNDLE, 1)
     recorder = start_recording(simulation, path, rate=60)
     slot = simulation.spawn(0.0, 0.0, 0.0, "walk")
     while recorder.recording:
@@ -112,7 +112,9 @@ def full_disk(path: Path) -> None:
 def test_a_full_disk_ends_the_recording_and_nothing_else(tmp_path: Path):
     path = tmp_path / "full.footrec"
     script = f"{SOON}import pathlib, test_recorder as t; t.full_disk(pathlib.Path({str(path)!r}))"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, env=ENVIRONMENT)
+    # -B: byte code that finds no room is left cut short by Python, in the environment of all other tests
+    command = [sys.executable, "-B", "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=ENVIRONMENT)
     errors, recorded, tick = map(int, done.stdout.split())
     assert (errors, tick > recorded + 100) == (1, True)
     assert "File too large" in done.stderr
