@@ -29,7 +29,9 @@ PILED_A_SECOND = 64
 """Bytes a second that may pile up besides: heartbeats are no messages, and who only listens sends nothing else."""
 _LOOKED_AT = 128
 """Connections looked at in one go."""
-_EVENTS_AT_ONCE, _FOLLOWED = 512, 4
+_EVENTS_AT_ONCE = 512
+_FOLLOWED = 4
+"""How many times as many of them are noted at a look, for who does nothing else between two of these."""
 _TCP_INFO_BYTES = 136
 _RECEIVED_AT = 128  # tcpi_bytes_received, Linux 4.1 and later
 

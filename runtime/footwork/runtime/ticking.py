@@ -149,15 +149,15 @@ def advance_kept(
     displacement: NDArray,
     adjustment: NDArray,
     natural: NDArray,
-    remembered: Kept,
+    kept: Kept,
 ) -> int:
-    """``advance`` of the characters, the motion and the smoothing that were kept."""
-    characters, motion, smoothing = remembered.parts
+    """``advance`` of what a world keeps: see ``show_kept``."""
+    characters, motion, smoothing, _, _ = kept.parts
     return advance(slots, edge, target, displacement, adjustment, natural, characters, motion, smoothing)
 
 
 @numba.njit(cache=True, nogil=True)
 def show_kept(slots: NDArray, fraction: float, kept: Kept) -> None:
-    """``show_characters`` of all else that was kept."""
+    """``show_characters`` of what a world keeps: characters, motion, smoothing and what is shown of all slots."""
     characters, motion, smoothing, shown_root, shown_rotations = kept.parts
     show_characters(slots, fraction, characters, motion, smoothing, shown_root, shown_rotations)

@@ -41,7 +41,6 @@ class World:
         characters: all that is remembered of them.
         motion: what they move on.
         smoothing: how they are shown.
-        remembered: these three, kept for kernels.
         node: where each is on the graph.  # (capacity,) int32
         place: planar place (x, z, yaw), metres and radians, yaw within -pi..pi.  # (capacity, 3) float64
         edge: the edge last taken, ``LEAP`` where it was none.  # (capacity,) int32
@@ -73,11 +72,10 @@ class World:
         self.motion = motion_of(graph) if motion is None else motion
         self.smoothing = smoothing(inertialise, foot_lock, halflife)
         self.characters = no_characters(capacity, joints, len(self.motion.legs))
-        self.remembered = keep((self.characters, self.motion, self.smoothing))
         self.node, self.place = self.characters.node, self.characters.place
         self.edge, self.natural = self.characters.edge, self.characters.natural
         self._shown = np.zeros((capacity, 3), dtype=np.float32), np.zeros((capacity, joints, 4), dtype=np.float32)
-        self._showing = keep((self.characters, self.motion, self.smoothing, *self._shown))
+        self._kept = keep((self.characters, self.motion, self.smoothing, *self._shown))
 
     def spawn(self, node: int, x: float, z: float, yaw: float) -> int:
         """Put a new character on a node at a planar place; its slot is the lowest free one.
@@ -164,7 +162,7 @@ class World:
             moves.displacement,
             moves.adjustment,
             moves.natural,
-            self.remembered,
+            self._kept,
         )
         if wrong >= 0:
             self.raise_wrong_move(wrong, moves)
@@ -182,7 +180,7 @@ class World:
         if not 0.0 < fraction <= 1.0:
             raise WorldError(f"fraction is {fraction}, expected above 0 and at most 1")
         if len(self.slots):
-            show_kept(self.slots, fraction, self._showing)
+            show_kept(self.slots, fraction, self._kept)
         return self._shown
 
     def require(self, slot: int) -> None:
